@@ -1,0 +1,70 @@
+#include "base/write_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "base/error.h"
+
+namespace tendril {
+namespace {
+
+[[noreturn]] void fail(const std::string& what, const std::string& path, const std::string& why) {
+  throw UsageError(what + " '" + path + "': " + why);
+}
+
+void make_folder_of(const std::string& path) {
+  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  if (folder.empty()) return;
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) fail("cannot create the folder of", path, error.message());
+}
+
+bool write_all(int file, std::string_view content) {
+  while (!content.empty()) {
+    const ssize_t written = ::write(file, content.data(), content.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) return false;
+    content.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return ::fsync(file) == 0 || errno == EINVAL;
+}
+
+}  // namespace
+
+void write_file(const std::string& path, std::string_view content) {
+  if (path.empty()) throw UsageError("cannot write a file without a name");
+  make_folder_of(path);
+  if (std::filesystem::is_directory(path)) fail("cannot write", path, "it is a folder");
+  std::string temporary = path + ".XXXXXX";
+  const int file = ::mkstemp(temporary.data());
+  if (file < 0) fail("cannot write", path, std::strerror(errno));
+  ::fchmod(file, 0644);
+  const bool written = write_all(file, content);
+  const int why = errno;
+  ::close(file);
+  if (!written || ::rename(temporary.c_str(), path.c_str()) != 0) {
+    const int reason = written ? errno : why;
+    ::unlink(temporary.c_str());
+    fail("cannot write", path, std::strerror(reason));
+  }
+}
+
+std::string read_file(const std::string& path) {
+  if (std::filesystem::is_directory(path)) fail("cannot read", path, "it is a folder");
+  std::ifstream in(path, std::ios::binary);
+  if (!in) fail("cannot read", path, std::strerror(errno));
+  std::ostringstream content;
+  content << in.rdbuf();
+  if (in.bad()) fail("cannot read", path, std::strerror(errno));
+  return std::move(content).str();
+}
+
+}  // namespace tendril

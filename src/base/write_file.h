@@ -1,0 +1,16 @@
+// Files appear whole or not at all.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace tendril {
+
+/// Writes `content` beside `path` under a temporary name, then renames it. Missing folders are created. Throws
+/// UsageError naming the path and the system's reason; an existing file is then left as it was.
+void write_file(const std::string& path, std::string_view content);
+
+/// The whole file as bytes. Throws UsageError naming the path and the reason.
+std::string read_file(const std::string& path);
+
+}  // namespace tendril

@@ -1,0 +1,89 @@
+// The answer of statics for one rod.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "base/frame.h"
+#include "statics/problem.h"
+
+namespace tendril {
+
+/// J, by term. Dead point loads are in `load` (minus force times displacement from the world origin).
+struct Energy {
+  double bend = 0, twist = 0, stretch = 0, shear = 0, gravity = 0, contact = 0, load = 0;
+  double total() const { return bend + twist + stretch + shear + gravity + contact + load; }
+};
+
+/// A force that the surroundings exert on the rod.
+struct ContactForce {
+  double s;        ///< arc length, m
+  Vec3 point;      ///< on the centre line, m
+  Vec3 force;      ///< N, on the rod
+  double gap;      ///< distance of the surfaces, m; negative: penetration
+  int obstacle;
+};
+
+/// What a support exerts on the rod at a hold, in world axes, the moment about the centre-line point of the hold.
+struct Reaction {
+  double s;
+  Vec3 force = Vec3::Zero();   ///< N
+  Vec3 moment = Vec3::Zero();  ///< N m
+};
+
+/// Estimated discretisation error of the centre line.
+struct ErrorEstimate {
+  double value = 0;      ///< m, the largest distance of a vertex from the exact rod
+  bool valid = false;    ///< false: the mesh is too coarse for the estimate to be trusted; see `why`
+  double order = 0;      ///< observed order of convergence
+  std::string why;
+};
+
+/// A rod in (or on its way to) static equilibrium. Arrays over vertices have segments + 1 entries, over segments one less.
+struct Equilibrium {
+  Status status = Status::stalled;
+  std::string message;
+  bool ok() const { return status == Status::solved; }
+
+  double seconds = 0;
+  int iterations = 0;        ///< factorisations
+  double residual = 0;       ///< largest unbalanced force (N) or moment over length (N)
+  double last_step = 0;      ///< rotations in rad, positions relative to the length
+  bool stable = false;       ///< no negative eigenvalue of the energy's second derivative
+  int negative_pivots = 0;
+  int fallbacks = 0;         ///< 0: the first method solved it
+  Energy energy;
+  std::optional<ErrorEstimate> error;
+
+  std::vector<double> s;             ///< vertices' arc lengths, m
+  std::vector<Vec3> points;          ///< vertices, m
+  std::vector<Quat> rotations;       ///< vertices' section orientations
+  std::vector<Vec3> forces;          ///< per segment: internal force n in world axes, N (by [s,L] on [0,s])
+  std::vector<Vec3> strains;         ///< per segment: Gamma - Gamma0 in the section frame
+  std::vector<Vec3> curvatures;      ///< per segment: Omega in the section frame, 1/m
+  std::vector<Vec3> moments;         ///< per segment: internal moment m at mid-segment, section frame, N m
+  std::vector<Reaction> reactions;   ///< one per hold, in the problem's order
+  std::vector<ContactForce> contacts;
+  double deepest_penetration = 0;    ///< m, 0 without contact
+
+  /// Points of the centre line at most `spacing` (m) apart, vertices included, with their arc lengths.
+  struct Sample {
+    double s;
+    Frame frame;
+  };
+  std::vector<Sample> sampled(double spacing) const;
+
+  /// The section's frame at an arc length (cubic between vertices).
+  Frame frame_at(double arc_length) const;
+
+  double smallest_bend_radius() const;  ///< m; infinity for a straight rod
+  double largest_tension() const;       ///< N, force along d3; negative: compression everywhere
+  double largest_strain() const;        ///< largest |stretch| + radius * |curvature change|
+  double settled_length() const;        ///< m, of the deformed centre line
+  std::vector<double> radii;            ///< per segment: section radius, m
+  std::vector<double> bend_radii() const;  ///< per vertex, m
+};
+
+}  // namespace tendril

@@ -1,0 +1,7 @@
+#include "statics/problem.h"
+
+namespace tendril {
+
+void RodProblem::check() const { rod.check(); }
+
+}  // namespace tendril

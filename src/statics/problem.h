@@ -1,0 +1,57 @@
+// One rod's statics problem, free of any scene, file or script.
+#pragma once
+
+#include <vector>
+
+#include "base/frame.h"
+#include "rod/rod.h"
+#include "statics/contact_field.h"
+
+namespace tendril {
+
+/// A hold of the section at arc length `at` (m): position, orientation or both.
+struct Hold {
+  double at = 0;
+  Frame frame;
+  bool position = true;
+  bool orientation = true;
+  double turns = 0;  ///< extra full turns about the tangent relative to the start: a frame alone cannot tell 0 from 360 degrees
+};
+
+/// A dead load (constant in world axes) on the section at arc length `at`: force in N, moment in N m.
+struct PointLoad {
+  double at = 0;
+  Vec3 force = Vec3::Zero();
+  Vec3 moment = Vec3::Zero();
+};
+
+/// The rod element. staggered: the thesis's section 2.1.4, positions at vertices and rotations on segments, second
+/// order. se3: frames at vertices, fourth order.
+enum class Element { se3, staggered };
+
+/// How the staggered element clamps an end. half_cell: a ghost frame at the very end (second order). thesis: the first
+/// half-segment's rotation is fixed, equation (2.10b) (first order).
+enum class ClampRule { half_cell, thesis };
+
+struct RodProblem {
+  Rod rod;
+  std::vector<Hold> holds;       ///< any order; at most one for each place
+  std::vector<PointLoad> loads;
+  Vec3 gravity = Vec3::Zero();   ///< m/s^2; zero: the term is left out
+  const ContactField* surroundings = nullptr;  ///< not owned; null: no contact term
+
+  /// Throws UsageError naming what cannot be: places outside the rod, contradictory holds, non-finite numbers, a rod
+  /// that can move as a rigid body, a weight that the rod's stretch stiffness cannot carry.
+  void check() const;
+};
+
+struct SolveOptions {
+  Element element = Element::se3;
+  ClampRule clamp = ClampRule::half_cell;
+  double tolerance = 1e-9;   ///< largest last step: rotations in rad, positions relative to the length
+  int max_iterations = 2000; ///< over all stages and fallbacks
+  bool stable_only = true;   ///< leave saddles; false: take the equilibrium nearest to the start
+  bool error = false;        ///< also estimate the discretisation error
+};
+
+}  // namespace tendril
