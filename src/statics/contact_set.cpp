@@ -1,0 +1,121 @@
+#include "statics/contact_set.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tendril {
+
+ContactSet::ContactSet(const ContactField& field, std::vector<ContactPoint> points, double horizon)
+    : field_(&field),
+      points_(std::move(points)),
+      horizon_(horizon),
+      x_(points_.size(), Vec3::Zero()),
+      known_(points_.size()),
+      shift_(points_.size(), 0.0),
+      excluded_(points_.size(), 0),
+      was_active_(points_.size(), 0),
+      active_(points_.size(), -1),
+      predicted_(points_.size(), Vec3::Zero()) {}
+
+/// Looks up the distance when what is known does not settle the matter.
+bool ContactSet::out_of_reach(int i, const Vec3& x) {
+  const double needed = reach(i);
+  if (distance_bound(i, x) >= needed) return true;
+  if (was_active_[i]) return false;  // most likely still in contact: its terms will tell the distance
+  double limit = needed + horizon_;
+  if (i > 0) {
+    // A neighbour in the open vouches for this point, and otherwise bounds the search.
+    const double apart = (x - x_[i - 1]).norm();
+    const double neighbour = distance_bound(i - 1, x_[i - 1]);
+    if (neighbour - apart >= needed + 2 * points_[i].radius) {
+      known_[i] = {x, neighbour - apart};
+      return true;
+    }
+    if (known_[i - 1].at == x_[i - 1] && neighbour > 0) limit = std::min(limit, 1.0001 * (neighbour + apart) + needed);
+  }
+  ++queries_;
+  known_[i] = {x, field_->closest(x, limit).distance};
+  return known_[i].distance >= needed;
+}
+
+double ContactSet::evaluate(const std::vector<Vec3>& x) {
+  contacts_.clear();
+  double energy = 0;
+  const int n = size();
+  for (int i = 0; i < n; ++i) {
+    active_[i] = -1;
+    x_[i] = x[i];
+    if (excluded_[i]) continue;
+    if (!all_finite(x[i])) return std::numeric_limits<double>::infinity();
+    if (out_of_reach(i, x[i])) {
+      was_active_[i] = 0;
+      continue;
+    }
+    terms_.clear();
+    ++queries_;
+    field_->terms(x[i], reach(i), terms_);
+    const PointContact c = contact_at(terms_, reach(i), points_[i].weight, law);
+    if (!(c.distance < reach(i))) {
+      was_active_[i] = 0;
+      if (known_[i].at != x[i]) {
+        ++queries_;
+        known_[i] = {x[i], field_->closest(x[i], reach(i) + horizon_).distance};
+      }
+      continue;
+    }
+    was_active_[i] = 1;
+    known_[i] = {x[i], c.distance};
+    active_[i] = static_cast<int>(contacts_.size());
+    contacts_.push_back(c);
+    energy += c.energy;
+  }
+  return energy;
+}
+
+void ContactSet::add_to(const VertexShape& shape, Geometry geometry, BlockSystem& system) const {
+  for (int i = 0; i < size(); ++i) {
+    const PointContact* c = at(i);
+    if (!c) continue;
+    double share = 1;
+    if (geometry == Geometry::predicted) {
+      const double size2 = c->gradient.squaredNorm();
+      share = size2 > 0 ? std::clamp(predicted_[i].dot(c->gradient) / size2, 0.0, 1.0) : 0.0;
+    }
+    const Mat3 hessian = c->material + share * c->curvature;
+    add_point_energy(points_[i], shape, c->gradient, hessian, share * c->gradient, system);
+  }
+}
+
+void ContactSet::predict(const VertexShape& shape, std::span<const Vec6> step, double share) {
+  for (int i = 0; i < size(); ++i) {
+    const PointContact* c = at(i);
+    if (!c) {
+      predicted_[i].setZero();
+      continue;
+    }
+    const Vec3 dx = share * displacement_of(points_[i], shape, step);
+    predicted_[i] = c->gradient + c->material * dx;
+  }
+}
+
+void ContactSet::forget_prediction() { std::fill(predicted_.begin(), predicted_.end(), Vec3::Zero()); }
+
+void ContactSet::update_shifts() {
+  for (int i = 0; i < size(); ++i) {
+    if (excluded_[i]) continue;
+    // Out of reach means distance >= radius + shift, for which the rule gives zero.
+    const PointContact* c = at(i);
+    shift_[i] = c ? std::max(0.0, reach(i) - c->distance) : 0.0;
+  }
+}
+
+void ContactSet::clear_shifts() { std::fill(shift_.begin(), shift_.end(), 0.0); }
+
+double ContactSet::deepest() const {
+  double deepest = -std::numeric_limits<double>::infinity();
+  for (int i = 0; i < size(); ++i)
+    if (const PointContact* c = at(i)) deepest = std::max(deepest, points_[i].radius - c->distance);
+  return deepest;
+}
+
+}  // namespace tendril
