@@ -1,0 +1,16 @@
+// Everything that tendril adds to a Lua state.
+#pragma once
+
+struct lua_State;
+
+namespace tendril::lua {
+
+/// Registers all modules, classes and global functions.
+void open_tendril(lua_State* L);
+
+// One for each bind_<name>.cpp.
+void bind_units(lua_State* L);
+void bind_vec(lua_State* L);
+void bind_frame(lua_State* L);
+
+}  // namespace tendril::lua
