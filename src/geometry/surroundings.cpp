@@ -1,0 +1,115 @@
+#include "geometry/surroundings.h"
+
+#include <cmath>
+
+#include "base/error.h"
+
+namespace tendril {
+
+namespace {
+
+Eigen::AlignedBox3d placed(const Eigen::AlignedBox3d& box, const Frame& pose) {
+  if (!all_finite(box.min()) || !all_finite(box.max())) return box;  // a half-space, turned or not
+  const Mat3 reach = pose.rotation.toRotationMatrix().cwiseAbs();
+  const Vec3 middle = pose.at + pose.rotation * box.center(), half = reach * (0.5 * box.sizes());
+  return {middle - half, middle + half};
+}
+
+}  // namespace
+
+int Surroundings::add(Obstacle obstacle) {
+  const auto* mesh = std::get_if<std::shared_ptr<const TriangleSurface>>(&obstacle.shape);
+  if (mesh && !*mesh) throw UsageError("obstacle: no mesh was given");
+  if (!mesh) check(std::get<Solid>(obstacle.shape), "obstacle");
+  if (!std::isfinite(obstacle.offset)) throw UsageError("obstacle: the offset is not finite; a length in m expected");
+  const Quat& turn = obstacle.pose.rotation;
+  if (!all_finite(obstacle.pose.at) || !(std::abs(turn.norm() - 1) < 1e-6))
+    throw UsageError("obstacle: the pose is not a frame; a finite place and a unit rotation expected");
+  obstacle.pose.rotation.normalize();
+  const TriangleSurface* surface = mesh ? mesh->get() : nullptr;
+  const Eigen::AlignedBox3d box = surface ? surface->box() : box_of(std::get<Solid>(obstacle.shape));
+  const Eigen::AlignedBox3d in_world = placed(box, obstacle.pose);
+  const Mat3 axes = obstacle.pose.rotation.toRotationMatrix();
+  entries_.push_back({std::move(obstacle), in_world, axes, surface});
+  return size() - 1;
+}
+
+ClosestPoint Surroundings::closest_on(int index, const Vec3& p, double limit) const {
+  const Entry& entry = entries_[index];
+  const double offset = entry.obstacle.offset;
+  const ClosestPoint nothing{limit, p, -1};
+  // Inside its box a solid may be nearer than any limit; a mesh is not nearer than its box.
+  const double reach = limit + offset;
+  if (!all_finite(p)) return nothing;
+  if (entry.box.squaredExteriorDistance(p) > 0 && !(std::sqrt(entry.box.squaredExteriorDistance(p)) < reach)) return nothing;
+  if (!entry.surface) {
+    const SolidDistance found = distance_to(std::get<Solid>(entry.obstacle.shape), entry.to_local(p));
+    if (!(found.distance < reach)) return nothing;
+    return {found.distance - offset, entry.to_world(found.point), index};
+  }
+  const DistanceTree::Nearest found = entry.surface->tree().closest(entry.to_local(p), reach);
+  if (found.triangle < 0) return nothing;
+  return {found.distance - offset, entry.to_world(found.point), index};
+}
+
+ClosestPoint Surroundings::closest(const Vec3& p, double limit) const {
+  ClosestPoint best{limit, p, -1};
+  for (int i = 0; i < size(); ++i) {
+    const ClosestPoint found = closest_on(i, p, best.distance);
+    if (found.obstacle >= 0) best = found;
+  }
+  return best;
+}
+
+void Surroundings::terms(const Vec3& p, double range, std::vector<DistanceTerm>& out) const {
+  if (!all_finite(p)) return;
+  for (int i = 0; i < size(); ++i) {
+    const double reach = range + entries_[i].obstacle.offset;
+    if (entries_[i].box.squaredExteriorDistance(p) > reach * reach && !entries_[i].box.contains(p)) continue;
+    if (entries_[i].surface) add_mesh_terms(i, p, range, out);
+    else add_solid_term(i, p, range, out);
+  }
+}
+
+std::optional<RayHit> Surroundings::ray(const Vec3& a, const Vec3& b) const {
+  std::optional<RayHit> first;
+  if (!all_finite(a) || !all_finite(b)) return first;
+  const Eigen::AlignedBox3d way(a.cwiseMin(b), a.cwiseMax(b));
+  for (int i = 0; i < size(); ++i) {
+    const Entry& entry = entries_[i];
+    // A half-space's box is infinite and meets everything.
+    if (!entry.box.intersects(way)) continue;
+    const Vec3 from = entry.to_local(a), to = entry.to_local(b);
+    if (entry.surface) {
+      const auto hit = entry.surface->tree().ray(from, to);
+      if (hit && (!first || hit->share < first->share))
+        first = RayHit{hit->share, a + hit->share * (b - a), entry.axes * hit->normal, i};
+    } else {
+      const auto hit = entry_into(std::get<Solid>(entry.obstacle.shape), from, to);
+      if (hit && (!first || hit->share < first->share))
+        first = RayHit{hit->share, a + hit->share * (b - a), entry.axes * hit->normal, i};
+    }
+  }
+  return first;
+}
+
+Eigen::AlignedBox3d Surroundings::box() const {
+  Eigen::AlignedBox3d box;
+  for (const Entry& entry : entries_)
+    if (all_finite(entry.box.min())) box.extend(entry.box);
+  return box;
+}
+
+std::optional<Crossing> first_crossing(const ContactField& surroundings, const std::vector<Vec3>& points) {
+  if (points.empty()) return std::nullopt;
+  const ClosestPoint start = surroundings.closest(points[0], 1e-9);
+  if (start.obstacle >= 0 && start.distance < 0) {
+    const Vec3 out = start.point - points[0];
+    return Crossing{0, {0, points[0], out.norm() > 0 ? Vec3(out.normalized()) : Vec3::UnitZ(), start.obstacle}};
+  }
+  for (std::size_t i = 0; i + 1 < points.size(); ++i)
+    if (auto hit = surroundings.ray(points[i], points[i + 1])) return Crossing{static_cast<int>(i), *hit};
+  return std::nullopt;
+}
+
+}  // namespace tendril

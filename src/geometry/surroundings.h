@@ -1,0 +1,74 @@
+// The obstacles around a rod: meshes and solids, each placed, with the distances, contact terms and rays of statics.
+#pragma once
+
+#include <memory>
+#include <variant>
+#include <vector>
+
+#include "base/frame.h"
+#include "geometry/solids.h"
+#include "geometry/triangle_surface.h"
+#include "statics/contact_field.h"
+
+namespace tendril {
+
+/// One obstacle. `offset` (m) thickens it: it is subtracted from every distance; 0 leaves the surface where it is.
+/// A frame's d1, d2, d3 are the x, y, z axes of the mesh or solid.
+struct Obstacle {
+  std::variant<std::shared_ptr<const TriangleSurface>, Solid> shape;
+  Frame pose;
+  double offset = 0;
+};
+
+/// Obstacles as statics sees them. Distances to meshes are unsigned (open and thin sheets are walls from both sides), to
+/// solids signed. Every query is const, safe from several threads and allocates nothing of its own. A mesh's tree is
+/// built by the first query that comes near it, its topology by the first call of terms() that does.
+///
+/// closest(): `distance` is less the offset, `point` lies on the obstacle's own surface. terms(): for a mesh the
+/// inclusion-exclusion sum of mesh_topology.h with the terms that cancel within one triangle left out. ray(): crosses
+/// the obstacle's own surface, whatever the offset; a path out of a solid does not count, so that a rod that starts
+/// inside can leave.
+class Surroundings final : public ContactField {
+ public:
+  /// Returns the obstacle's number, counted from 0. Throws UsageError for an offset or a pose that is not finite, a
+  /// solid without positive size, and a missing mesh.
+  int add(Obstacle obstacle);
+
+  int size() const { return static_cast<int>(entries_.size()); }
+  const Obstacle& obstacle(int index) const { return entries_[index].obstacle; }
+
+  ClosestPoint closest(const Vec3& p, double limit) const override;
+  void terms(const Vec3& p, double range, std::vector<DistanceTerm>& out) const override;
+  std::optional<RayHit> ray(const Vec3& a, const Vec3& b) const override;
+
+  /// The closest point of one obstacle, beside `distance` and `point` as closest() gives them.
+  ClosestPoint closest_on(int obstacle, const Vec3& p, double limit) const;
+
+  Eigen::AlignedBox3d box() const;  ///< of all obstacles but half-spaces, without offsets, m
+
+ private:
+  struct Entry {
+    Obstacle obstacle;
+    Eigen::AlignedBox3d box;  ///< in world axes, m
+    Mat3 axes;                ///< the pose's rotation: columns are the obstacle's axes
+    const TriangleSurface* surface;  ///< null for a solid
+    Vec3 to_local(const Vec3& p) const { return axes.transpose() * (p - obstacle.pose.at); }
+    Vec3 to_world(const Vec3& p) const { return axes * p + obstacle.pose.at; }
+  };
+  void add_solid_term(int index, const Vec3& p, double range, std::vector<DistanceTerm>& out) const;
+  void add_mesh_terms(int index, const Vec3& p, double range, std::vector<DistanceTerm>& out) const;
+
+  std::vector<Entry> entries_;
+};
+
+/// Where a polyline first passes through a surface: after `segment` whole segments, at `hit`.
+struct Crossing {
+  int segment;
+  RayHit hit;
+};
+
+/// The first crossing of a polyline with the surroundings; nothing when it is free of crossings. A polyline that starts
+/// inside a solid crosses it at its first point.
+std::optional<Crossing> first_crossing(const ContactField& surroundings, const std::vector<Vec3>& points);
+
+}  // namespace tendril
