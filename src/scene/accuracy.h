@@ -1,0 +1,41 @@
+// Error against run time: the same scene solved with more and more segments.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/run_context.h"
+#include "scene/scene.h"
+
+namespace tendril {
+
+struct AccuracyOptions {
+  std::vector<int> segments{10, 20, 40, 80, 160, 320};  ///< of every rod
+  SolveOptions solve;          ///< element, clamp and tolerance; `error` asks for the estimates too
+  double seconds_each = 0.05;  ///< solves are repeated for about this long, 3 to 200 times, and the median is taken
+};
+
+struct AccuracyRow {
+  int segments = 0;
+  double seconds = 0;       ///< median of the repeated cold solves of all rods, without building trees
+  double error = 0;         ///< m, largest distance of a vertex from the reference at the same arc length
+  double order = 0;         ///< observed against the row before; NaN in the first
+  double estimate = 0;      ///< m, what ErrorEstimate said; NaN when not asked for or not valid
+  int iterations = 0;
+  Status status = Status::stalled;
+};
+
+struct Accuracy {
+  std::vector<AccuracyRow> rows;
+  int reference_segments = 0;        ///< se3 element; with Richardson extrapolation where its order is the fourth
+  bool extrapolated = false;
+  double reference_uncertainty = 0;  ///< m, what the last refinement of the reference still changed
+  Status status = Status::solved;    ///< not solved: the reference could not be had, or the time was up
+  std::string message;
+};
+
+/// Solves `scene` for each number of segments. Throws UsageError for an empty list and for numbers of segments out of
+/// range. The scene is not changed.
+Accuracy study_accuracy(const Scene& scene, const AccuracyOptions& options = {}, const RunContext& context = {});
+
+}  // namespace tendril

@@ -1,0 +1,114 @@
+#include "scene/placed_rod.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "base/error.h"
+#include "base/units.h"
+
+namespace tendril {
+namespace {
+
+constexpr double same_place = 1e-9;  // of the length: two holds nearer than this are at one place
+constexpr double same_angle = 1e-9;  // rad
+
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", value);
+  return text;
+}
+
+std::string vector(const Vec3& v) { return "{" + number(v.x()) + ", " + number(v.y()) + ", " + number(v.z()) + "}"; }
+
+double angle_between(const Quat& a, const Quat& b) { return log_rotation(a.conjugate() * b).norm(); }
+
+}  // namespace
+
+PlacedRod::PlacedRod(std::string name, Rod rod, const std::optional<Frame>& from, const std::optional<Frame>& to)
+    : name_(std::move(name)), rod_(std::move(rod)) {
+  if (name_.empty()) throw UsageError("scene.rod: the name is empty, expected a word");
+  rod_.check();
+  if (from) hold({0, *from});
+  if (to) hold({rod_.length, *to});
+}
+
+double PlacedRod::place(std::string_view end) const {
+  if (end == "start") return 0;
+  if (end == "finish") return rod_.length;
+  throw UsageError("rod '" + name_ + "': unknown place '" + std::string(end) +
+                   "', expected \"start\", \"finish\" or an arc length in m");
+}
+
+std::string PlacedRod::describe(double at) const {
+  if (at <= 0) return "its start";
+  if (at >= rod_.length) return "its finish";
+  return number(at) + " m";
+}
+
+void PlacedRod::check_place(const char* who, double at) const {
+  if (!std::isfinite(at) || at < 0 || at > rod_.length)
+    throw UsageError(std::string(who) + ": the place on '" + name_ + "' is " + number(at) + " m, expected 0 to " +
+                     number(rod_.length) + " m (its length)");
+}
+
+std::vector<Hold>::iterator PlacedRod::find(double at) {
+  return std::find_if(holds_.begin(), holds_.end(),
+                      [&](const Hold& h) { return std::abs(h.at - at) <= same_place * rod_.length; });
+}
+
+const Hold* PlacedRod::hold_at(double at) const {
+  const auto found = const_cast<PlacedRod*>(this)->find(at);
+  return found == holds_.end() ? nullptr : &*found;
+}
+
+void PlacedRod::hold(const Hold& wanted) {
+  check_place("hold", wanted.at);
+  if (!all_finite(wanted.frame.at) || !all_finite(wanted.frame.rotation.coeffs()))
+    throw UsageError("hold: the frame for '" + name_ + "' at " + describe(wanted.at) + " has numbers that are not finite");
+  if (!std::isfinite(wanted.turns)) throw UsageError("hold: 'turns' is not a finite number");
+  if (!wanted.position && !wanted.orientation)
+    throw UsageError("hold: neither position nor orientation of '" + name_ + "' at " + describe(wanted.at) +
+                     " is held; use release to remove a hold");
+  const auto old = find(wanted.at);
+  if (old == holds_.end()) {
+    holds_.push_back(wanted);
+    return;
+  }
+  if (old->position && wanted.position && (old->frame.at - wanted.frame.at).norm() > same_place * rod_.length)
+    throw UsageError("hold: contradictory holds: '" + name_ + "' is already held at " + describe(wanted.at) +
+                     " in position " + vector(old->frame.at) + ", got " + vector(wanted.frame.at) +
+                     "; release it there first");
+  const double turn = angle_between(old->frame.rotation, wanted.frame.rotation);
+  if (old->orientation && wanted.orientation && turn > same_angle)
+    throw UsageError("hold: contradictory holds: '" + name_ + "' is already held at " + describe(wanted.at) +
+                     " in an orientation that differs by " + number(turn / units::deg) +
+                     " degrees; release it there first");
+  Hold merged = wanted;
+  const bool complementary = old->position != wanted.position && old->orientation != wanted.orientation;
+  if (complementary) {
+    merged.position = merged.orientation = true;
+    if (old->position) merged.frame.at = old->frame.at;
+    if (old->orientation) {
+      merged.frame.rotation = old->frame.rotation;
+      merged.turns = old->turns;
+    }
+  }
+  *old = merged;
+}
+
+void PlacedRod::release(double at) {
+  check_place("release", at);
+  const auto found = find(at);
+  if (found == holds_.end()) throw UsageError("release: '" + name_ + "' is not held at " + describe(at));
+  holds_.erase(found);
+}
+
+void PlacedRod::load(const PointLoad& load) {
+  check_place("load", load.at);
+  if (!all_finite(load.force)) throw UsageError("load: 'force' must be finite numbers in N");
+  if (!all_finite(load.moment)) throw UsageError("load: 'moment' must be finite numbers in N m");
+  loads_.push_back(load);
+}
+
+}  // namespace tendril

@@ -1,0 +1,62 @@
+// The world: gravity, obstacles and rods. Nothing in it costs anything until it is used.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/run_context.h"
+#include "scene/placed_obstacle.h"
+#include "scene/placed_rod.h"
+#include "scene/scene_equilibrium.h"
+#include "statics/problem.h"
+
+namespace tendril {
+
+/// A mutable collection of obstacles and rods. The obstacles' distance trees are built when the first rod is solved or
+/// measured near them, and kept with their meshes.
+class Scene {
+ public:
+  /// Gravity in m/s^2, world axes; zero: the term is left out. Throws UsageError unless finite.
+  explicit Scene(const Vec3& gravity = Vec3::Zero());
+
+  const Vec3& gravity() const { return gravity_; }
+
+  /// Throws UsageError for an empty name, a name that is taken, or a clearance that is negative or not finite.
+  void add(PlacedObstacle obstacle);
+  /// Throws UsageError for a name that is taken.
+  PlacedRod& add(PlacedRod rod);
+  /// Removes an obstacle or a rod. Throws UsageError for an unknown name, with the nearest.
+  void remove(std::string_view name);
+
+  const std::vector<PlacedObstacle>& obstacles() const { return obstacles_; }
+  const std::vector<std::unique_ptr<PlacedRod>>& rods() const { return rods_; }
+  /// Throws UsageError for an unknown name, with the nearest.
+  PlacedRod& rod(std::string_view name) const;
+  const PlacedObstacle& obstacle(std::string_view name) const;
+
+  /// The obstacles as statics sees them; null without obstacles. Builds no tree: the first query near a mesh does.
+  std::shared_ptr<const Surroundings> surroundings() const;
+
+  /// The statics problem of one rod with only the terms that it needs.
+  RodProblem problem_of(const PlacedRod& rod) const;
+
+  /// Static equilibrium of every rod. `from`: start from the rods of the same name in an earlier equilibrium.
+  /// Throws UsageError for a scene without rods and for problems that make no sense (see RodProblem::check); a
+  /// computation that does not converge, is cancelled or runs out of time is a result with that status.
+  SceneEquilibrium solve(const SolveOptions& options = {}, const RunContext& context = {},
+                         const SceneEquilibrium* from = nullptr) const;
+
+ private:
+  void check_free(std::string_view name, const char* who) const;
+
+  Vec3 gravity_;
+  std::vector<PlacedObstacle> obstacles_;
+  std::vector<std::unique_ptr<PlacedRod>> rods_;
+  mutable std::shared_ptr<const Surroundings> surroundings_;
+};
+
+}  // namespace tendril

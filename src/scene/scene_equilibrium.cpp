@@ -1,0 +1,135 @@
+#include "scene/scene_equilibrium.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include "base/error.h"
+#include "base/nearest_name.h"
+
+namespace tendril {
+namespace {
+
+int severity(Status status) {
+  switch (status) {
+    case Status::solved: return 0;
+    case Status::stalled: return 1;
+    case Status::infeasible: return 2;
+    case Status::timeout: return 3;
+    case Status::cancelled: return 4;
+  }
+  return 4;
+}
+
+}  // namespace
+
+Status SceneEquilibrium::status() const {
+  Status worst = Status::solved;
+  for (const SolvedRod& rod : rods)
+    if (severity(rod.equilibrium.status) > severity(worst)) worst = rod.equilibrium.status;
+  return worst;
+}
+
+std::string SceneEquilibrium::message() const {
+  if (ok()) return "solved";
+  std::string text;
+  for (const SolvedRod& rod : rods)
+    if (!rod.equilibrium.ok()) text += (text.empty() ? "" : "; ") + rod.name + ": " + rod.equilibrium.message;
+  return text;
+}
+
+int SceneEquilibrium::iterations() const {
+  int sum = 0;
+  for (const SolvedRod& rod : rods) sum += rod.equilibrium.iterations;
+  return sum;
+}
+
+double SceneEquilibrium::residual() const {
+  double largest = 0;
+  for (const SolvedRod& rod : rods) largest = std::max(largest, rod.equilibrium.residual);
+  return largest;
+}
+
+bool SceneEquilibrium::stable() const {
+  return std::all_of(rods.begin(), rods.end(), [](const SolvedRod& rod) { return rod.equilibrium.stable; });
+}
+
+Energy SceneEquilibrium::energy() const {
+  Energy sum;
+  for (const SolvedRod& rod : rods) {
+    const Energy& e = rod.equilibrium.energy;
+    sum.bend += e.bend;
+    sum.twist += e.twist;
+    sum.stretch += e.stretch;
+    sum.shear += e.shear;
+    sum.gravity += e.gravity;
+    sum.contact += e.contact;
+    sum.load += e.load;
+  }
+  return sum;
+}
+
+std::optional<ErrorEstimate> SceneEquilibrium::error() const {
+  std::optional<ErrorEstimate> worst;
+  for (const SolvedRod& rod : rods) {
+    const std::optional<ErrorEstimate>& e = rod.equilibrium.error;
+    if (!e) continue;
+    const bool worse = !worst || (worst->valid && !e->valid) || (worst->valid == e->valid && e->value > worst->value);
+    if (worse) worst = e;
+  }
+  return worst;
+}
+
+double SceneEquilibrium::deepest_penetration() const {
+  double deepest = 0;
+  for (const SolvedRod& rod : rods) deepest = std::max(deepest, rod.equilibrium.deepest_penetration);
+  return deepest;
+}
+
+const SolvedRod& SceneEquilibrium::rod(std::string_view name) const {
+  std::vector<std::string> names;
+  for (const SolvedRod& rod : rods) {
+    if (rod.name == name) return rod;
+    names.push_back(rod.name);
+  }
+  throw UsageError("equilibrium: unknown rod " + unknown_name(name, "rods", names));
+}
+
+int SceneEquilibrium::obstacle(std::string_view name) const {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < obstacles.size(); ++i) {
+    if (obstacles[i].name == name) return static_cast<int>(i);
+    names.push_back(obstacles[i].name);
+  }
+  throw UsageError("equilibrium: unknown obstacle " + unknown_name(name, "obstacles", names));
+}
+
+ClosestPoint SceneEquilibrium::closest(const Vec3& p, int to) const {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  if (!surroundings) return {infinity, p, -1};
+  return to < 0 ? surroundings->closest(p, infinity) : surroundings->closest_on(to, p, infinity);
+}
+
+Clearance SceneEquilibrium::clearance(const SolvedRod& from, int to, double begin, double end) const {
+  const Rod& design = from.problem.rod;
+  const auto distance = [this, to](const Vec3& p) { return closest(p, to); };
+  return clearance_of(design, from.equilibrium, distance, begin, end < 0 ? design.length : end);
+}
+
+Reaction SceneEquilibrium::reaction(const SolvedRod& rod, double at) const {
+  const double length = rod.problem.rod.length;
+  std::string places;
+  for (std::size_t i = 0; i < rod.problem.holds.size() && i < rod.equilibrium.reactions.size(); ++i) {
+    const double held = rod.problem.holds[i].at;
+    if (std::abs(held - at) <= 1e-9 * length) return rod.equilibrium.reactions[i];
+    char text[32];
+    std::snprintf(text, sizeof text, "%.6g m", held);
+    places += (places.empty() ? "" : ", ") + std::string(held <= 0 ? "start" : held >= length ? "finish" : text);
+  }
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", at);
+  throw UsageError("equilibrium: '" + rod.name + "' is not held at " + text + " m (held at: " + places + ")");
+}
+
+}  // namespace tendril

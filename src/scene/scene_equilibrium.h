@@ -1,0 +1,61 @@
+// The answer of a scene's solve: one equilibrium a rod, and what is measured on them.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scene/clearance.h"
+#include "scene/placed_obstacle.h"
+#include "statics/equilibrium.h"
+#include "statics/problem.h"
+
+namespace tendril {
+
+/// One rod of a scene as it was solved. `problem.surroundings` belongs to the scene's equilibrium.
+struct SolvedRod {
+  std::string name;
+  RodProblem problem;
+  SolveOptions options;
+  Equilibrium equilibrium;
+};
+
+/// A scene (or rather a picture taken of it when it was solved: later changes of the scene do not show here) in static
+/// equilibrium. Immutable once made.
+struct SceneEquilibrium {
+  std::vector<SolvedRod> rods;
+  std::vector<PlacedObstacle> obstacles;  ///< numbered as in `surroundings`
+  std::shared_ptr<const Surroundings> surroundings;  ///< null without obstacles
+  double seconds = 0;            ///< all rods, without building the obstacles' trees
+  double seconds_for_trees = 0;
+
+  bool ok() const { return status() == Status::solved; }
+  Status status() const;          ///< the worst of the rods': cancelled, timeout, infeasible, stalled, solved
+  std::string message() const;    ///< "solved", or each rod that is not, by name, and why
+  int iterations() const;         ///< sum over the rods
+  double residual() const;        ///< N, the largest of the rods'
+  bool stable() const;            ///< every rod is stable
+  Energy energy() const;          ///< J, summed over the rods
+  /// Discretisation error of the centre lines, m: the rods' largest; invalid as soon as one is. Nothing unless asked for.
+  std::optional<ErrorEstimate> error() const;
+  double deepest_penetration() const;  ///< m
+
+  /// Throws UsageError with the nearest name.
+  const SolvedRod& rod(std::string_view name) const;
+  /// Index of an obstacle by name. Throws UsageError with the nearest name.
+  int obstacle(std::string_view name) const;
+
+  /// The closest surface point of the obstacle `to` (-1: of any) to `p`; infinitely far, with obstacle -1, without one.
+  ClosestPoint closest(const Vec3& p, int to = -1) const;
+
+  /// The smallest gap between rod `from` and the obstacle `to` (empty: any), in arc lengths `begin` ... `end` (m;
+  /// negative `end`: the rod's length). Infinite, with obstacle -1, when there is none.
+  Clearance clearance(const SolvedRod& from, int to = -1, double begin = 0, double end = -1) const;
+
+  /// What the support does to the rod at a hold: force in N and moment in N m in world axes. Throws UsageError where the
+  /// rod is not held.
+  Reaction reaction(const SolvedRod& rod, double at) const;
+};
+
+}  // namespace tendril
