@@ -63,6 +63,7 @@ struct Equilibrium {
   std::vector<Vec3> forces;          ///< per segment: internal force n in world axes, N (by [s,L] on [0,s])
   std::vector<Vec3> strains;         ///< per segment: Gamma - Gamma0 in the section frame
   std::vector<Vec3> curvatures;      ///< per segment: Omega in the section frame, 1/m
+  std::vector<Vec3> curvature_changes;  ///< per segment: Omega - Omega0, 1/m
   std::vector<Vec3> moments;         ///< per segment: internal moment m at mid-segment, section frame, N m
   std::vector<Reaction> reactions;   ///< one per hold, in the problem's order
   std::vector<ContactForce> contacts;

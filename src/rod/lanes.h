@@ -1,0 +1,179 @@
+// Small fixed-size algebra over a scalar type T that is either one double or a SIMD pack of doubles, so that one element
+// formula serves single segments and several segments at once.
+#pragma once
+
+#include <cmath>
+
+#include "base/vectors.h"
+
+namespace tendril {
+
+/// Four doubles that are worked on at once.
+using Pack = double __attribute__((vector_size(32)));
+
+template <class T>
+inline constexpr int lanes_of = sizeof(T) / sizeof(double);
+
+inline double& lane(double& value, int) { return value; }
+inline double lane(const double& value, int) { return value; }
+inline double& lane(Pack& value, int i) { return reinterpret_cast<double*>(&value)[i]; }
+inline double lane(const Pack& value, int i) { return value[i]; }
+
+template <class T>
+inline T filled(double value) {
+  return T{} + value;
+}
+
+/// Applies a scalar function to each lane.
+template <class T, class F>
+inline T each_lane(const T& value, F&& f) {
+  T result{};
+  for (int i = 0; i < lanes_of<T>; ++i) lane(result, i) = f(lane(value, i));
+  return result;
+}
+
+template <class T>
+inline T square_root(const T& value) {
+  return each_lane(value, [](double x) { return std::sqrt(x); });
+}
+
+template <class T>
+inline double largest_lane(const T& value) {
+  double largest = lane(value, 0);
+  for (int i = 1; i < lanes_of<T>; ++i) largest = std::max(largest, lane(value, i));
+  return largest;
+}
+
+template <class T>
+struct V3 {
+  T x, y, z;
+  T& operator[](int i) { return (&x)[i]; }
+  const T& operator[](int i) const { return (&x)[i]; }
+};
+
+template <class T>
+inline V3<T> operator+(const V3<T>& a, const V3<T>& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+template <class T>
+inline V3<T> operator-(const V3<T>& a, const V3<T>& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+template <class T>
+inline V3<T> operator*(const T& s, const V3<T>& a) { return {s * a.x, s * a.y, s * a.z}; }
+template <class T>
+inline V3<T> operator-(const V3<T>& a) { return {-a.x, -a.y, -a.z}; }
+template <class T>
+inline T dot(const V3<T>& a, const V3<T>& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+template <class T>
+inline V3<T> cross(const V3<T>& a, const V3<T>& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+/// Entry by entry.
+template <class T>
+inline V3<T> times(const V3<T>& a, const V3<T>& b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
+
+/// 3x3, row by row.
+template <class T>
+struct M3 {
+  T e[9];
+  T& operator()(int i, int j) { return e[3 * i + j]; }
+  const T& operator()(int i, int j) const { return e[3 * i + j]; }
+};
+
+template <class T>
+inline M3<T> operator+(const M3<T>& a, const M3<T>& b) {
+  M3<T> r;
+#pragma GCC unroll 9
+  for (int i = 0; i < 9; ++i) r.e[i] = a.e[i] + b.e[i];
+  return r;
+}
+template <class T>
+inline M3<T> operator-(const M3<T>& a, const M3<T>& b) {
+  M3<T> r;
+#pragma GCC unroll 9
+  for (int i = 0; i < 9; ++i) r.e[i] = a.e[i] - b.e[i];
+  return r;
+}
+template <class T>
+inline M3<T> operator-(const M3<T>& a) {
+  M3<T> r;
+#pragma GCC unroll 9
+  for (int i = 0; i < 9; ++i) r.e[i] = -a.e[i];
+  return r;
+}
+template <class T>
+inline M3<T> operator*(const T& s, const M3<T>& a) {
+  M3<T> r;
+#pragma GCC unroll 9
+  for (int i = 0; i < 9; ++i) r.e[i] = s * a.e[i];
+  return r;
+}
+template <class T>
+inline M3<T> operator*(const M3<T>& a, const M3<T>& b) {
+  M3<T> r;
+#pragma GCC unroll 3
+  for (int i = 0; i < 3; ++i)
+#pragma GCC unroll 3
+    for (int j = 0; j < 3; ++j) r(i, j) = a(i, 0) * b(0, j) + a(i, 1) * b(1, j) + a(i, 2) * b(2, j);
+  return r;
+}
+template <class T>
+inline V3<T> operator*(const M3<T>& a, const V3<T>& v) {
+  return {a(0, 0) * v.x + a(0, 1) * v.y + a(0, 2) * v.z, a(1, 0) * v.x + a(1, 1) * v.y + a(1, 2) * v.z,
+          a(2, 0) * v.x + a(2, 1) * v.y + a(2, 2) * v.z};
+}
+template <class T>
+inline M3<T> transposed(const M3<T>& a) {
+  return {{a.e[0], a.e[3], a.e[6], a.e[1], a.e[4], a.e[7], a.e[2], a.e[5], a.e[8]}};
+}
+template <class T>
+inline V3<T> transposed_times(const M3<T>& a, const V3<T>& v) {
+  return {a(0, 0) * v.x + a(1, 0) * v.y + a(2, 0) * v.z, a(0, 1) * v.x + a(1, 1) * v.y + a(2, 1) * v.z,
+          a(0, 2) * v.x + a(1, 2) * v.y + a(2, 2) * v.z};
+}
+template <class T>
+inline M3<T> outer(const V3<T>& a, const V3<T>& b) {
+  return {{a.x * b.x, a.x * b.y, a.x * b.z, a.y * b.x, a.y * b.y, a.y * b.z, a.z * b.x, a.z * b.y, a.z * b.z}};
+}
+template <class T>
+inline M3<T> cross_matrix_of(const V3<T>& v) {
+  const T o{};
+  return {{o, -v.z, v.y, v.z, o, -v.x, -v.y, v.x, o}};
+}
+template <class T>
+inline M3<T> symmetric_part(const M3<T>& a) {
+  const T half = filled<T>(0.5);
+  return half * (a + transposed(a));
+}
+template <class T>
+inline void add_to_diagonal(M3<T>& a, const T& s) {
+  a.e[0] += s;
+  a.e[4] += s;
+  a.e[8] += s;
+}
+template <class T>
+inline M3<T> diagonal_matrix(const V3<T>& d) {
+  const T o{};
+  return {{d.x, o, o, o, d.y, o, o, o, d.z}};
+}
+
+/// Unit quaternion w + (x, y, z).
+template <class T>
+struct Q4 {
+  T w;
+  V3<T> v;
+};
+
+template <class T>
+inline Q4<T> conjugate_times(const Q4<T>& a, const Q4<T>& b) {
+  const V3<T> c = cross(a.v, b.v);
+  return {a.w * b.w + dot(a.v, b.v), a.w * b.v - b.w * a.v - c};
+}
+
+template <class T>
+inline M3<T> rotation_matrix(const Q4<T>& q) {
+  const T two = filled<T>(2), one = filled<T>(1);
+  const T x = q.v.x, y = q.v.y, z = q.v.z, w = q.w;
+  return {{one - two * (y * y + z * z), two * (x * y - w * z), two * (x * z + w * y),
+           two * (x * y + w * z), one - two * (x * x + z * z), two * (y * z - w * x),
+           two * (x * z - w * y), two * (y * z + w * x), one - two * (x * x + y * y)}};
+}
+
+}  // namespace tendril

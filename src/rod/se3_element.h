@@ -1,0 +1,313 @@
+// The fourth-order rod element between two section frames (r_a, R_a) and (r_b, R_b).
+//
+// Model. xi = (v, phi) = log of the relative motion, eps = xi/h its strain and curvature rates (e3 included). Along a
+// segment without load the internal wrench is constant in space, so in the section's axes it changes by ad_eps^T W. To
+// the order h^4 the energy of the true (not helical) path between the frames is
+//     E = h/2 e^T C^-1 e,   e = eps - eps0,   C = K^-1 + q ad_eps K^-1 ad_eps^T,   q = h^2/12,
+// which follows from minimising the energy over a linear variation of the strain with xi's Magnus expansion as the
+// constraint; W = C^-1 e is the wrench at mid-segment. q = 0 gives the second-order element with constant strain.
+// Gradient and second derivative are exact. With M x = ad_x^T W, u = K^-1 M eps and J = q (ad_eps K^-1 M - ad_u):
+//     dE/dxi = W + q M u,     d2E/dxi2 = ((I - J)^T C^-1 (I - J) + q M K^-1 M)/h.
+// Not done: distributed load inside a segment (the weight's effect on stretch; relative size wL/EA), jumps of the
+// reference strain inside a segment.
+//
+// "Stress of the geometric terms": every term of the second derivative that is linear in W takes a wrench of its own, as
+// mixed-stress Newton wants; with the true wrench the second derivative is that of E.
+#pragma once
+
+#include "rod/rotation_log.h"
+
+namespace tendril {
+
+/// What a segment is: length h (m), q = h^2/12 or 0, flexibilities K^-1 by component, reference rates eps0 with e3.
+template <class T>
+struct Se3Segment {
+  T h, q;
+  V3<T> flexibility_v, flexibility_phi;  ///< 1/(GA1, GA2, EA) and 1/(EI1, EI2, GJ)
+  V3<T> rate_v, rate_phi;
+};
+
+/// Force-like pair: n (N) and m (N m), in the section's axes.
+template <class T>
+struct Wrench {
+  V3<T> n, m;
+};
+
+template <class T>
+struct Se3Ends {
+  Q4<T> qa, qb;
+  V3<T> ra, rb;
+};
+
+/// Gradient of the segment's energy: position of b (that of a is the opposite; world axes), rotations of a and b.
+template <class T>
+struct SegmentGradient {
+  T energy;
+  V3<T> force, theta_a, theta_b;
+  Wrench<T> wrench;  ///< true wrench at mid-segment
+};
+
+/// Second derivative in (d = r_b - r_a world axes, theta_a, theta_b); db: rows d, columns theta_b.
+template <class T>
+struct SegmentHessian {
+  M3<T> dd, da, db, aa, ab, bb;
+};
+
+/// What turns a step into the linearised change of the wrench.
+template <class T>
+struct WrenchRate {
+  M3<T> axes, a, g;   ///< R_a; A(phi); d(A d)/dphi
+  V3<T> d;            ///< R_a^T (r_b - r_a)
+  M3<T> p[2][2];      ///< C^-1 (I - J) / h, blocks (v, phi)
+
+  Wrench<T> change(const V3<T>& dr, const V3<T>& theta_a, const V3<T>& theta_b) const {
+    const V3<T> dd = transposed_times(axes, dr) + cross(d, theta_a);
+    const V3<T> dphi = transposed_times(a, theta_b) - a * theta_a;
+    const V3<T> dv = a * dd + g * dphi;
+    return {p[0][0] * dv + p[0][1] * dphi, p[1][0] * dv + p[1][1] * dphi};
+  }
+};
+
+namespace detail {
+
+/// 6x6 in (v, phi) ordering.
+template <class T>
+struct M6 {
+  T e[6][6];
+  void set(int i, int j, const M3<T>& b) {
+#pragma GCC unroll 3
+    for (int r = 0; r < 3; ++r)
+#pragma GCC unroll 3
+      for (int c = 0; c < 3; ++c) e[3 * i + r][3 * j + c] = b(r, c);
+  }
+  M3<T> get(int i, int j) const {
+    M3<T> b;
+#pragma GCC unroll 3
+    for (int r = 0; r < 3; ++r)
+#pragma GCC unroll 3
+      for (int c = 0; c < 3; ++c) b(r, c) = e[3 * i + r][3 * j + c];
+    return b;
+  }
+};
+
+/// Cholesky factor of a symmetric positive matrix, in place: lower triangle, the diagonal inverted.
+template <class T>
+inline void factor(M6<T>& c) {
+#pragma GCC unroll 6
+  for (int j = 0; j < 6; ++j) {
+    T pivot = c.e[j][j];
+#pragma GCC unroll 6
+    for (int k = 0; k < j; ++k) pivot -= c.e[j][k] * c.e[j][k];
+    const T inverse = filled<T>(1) / square_root(pivot);
+    c.e[j][j] = inverse;
+#pragma GCC unroll 6
+    for (int i = j + 1; i < 6; ++i) {
+      T sum = c.e[i][j];
+#pragma GCC unroll 6
+      for (int k = 0; k < j; ++k) sum -= c.e[i][k] * c.e[j][k];
+      c.e[i][j] = sum * inverse;
+    }
+  }
+}
+
+template <class T>
+inline void solve_lower(const M6<T>& l, T (&x)[6]) {
+#pragma GCC unroll 6
+  for (int i = 0; i < 6; ++i) {
+#pragma GCC unroll 6
+    for (int k = 0; k < i; ++k) x[i] -= l.e[i][k] * x[k];
+    x[i] *= l.e[i][i];
+  }
+}
+
+template <class T>
+inline void solve_upper(const M6<T>& l, T (&x)[6]) {
+#pragma GCC unroll 6
+  for (int i = 5; i >= 0; --i) {
+#pragma GCC unroll 6
+    for (int k = i + 1; k < 6; ++k) x[i] -= l.e[k][i] * x[k];
+    x[i] *= l.e[i][i];
+  }
+}
+
+/// Strain state shared by gradient and second derivative.
+template <class T>
+struct Se3Strain {
+  M3<T> axes, a, g;
+  JacobianCoefficients<T> k;
+  V3<T> phi, d, rate_v, rate_phi;
+  M6<T> l;  ///< factor of C
+
+  Se3Strain(const Se3Segment<T>& s, const Se3Ends<T>& x) {
+    phi = rotation_log(conjugate_times(x.qa, x.qb), k);
+    axes = rotation_matrix(x.qa);
+    d = transposed_times(axes, x.rb - x.ra);
+    a = inverse_left_jacobian(phi, k.c);
+    const T per_length = filled<T>(1) / s.h;
+    rate_v = per_length * (a * d);
+    rate_phi = per_length * phi;
+    const M3<T> cv = cross_matrix_of(rate_v), cp = cross_matrix_of(rate_phi);
+    const M3<T> kv = diagonal_matrix(s.flexibility_v), kp = diagonal_matrix(s.flexibility_phi);
+    // C = K^-1 - q [Phi kv Phi + V kp V, V kp Phi; Phi kp V, Phi kp Phi]: the cross matrices are antisymmetric.
+    const M3<T> vk = cv * kp, pk = cp * kp;
+    l.set(0, 0, kv - s.q * (cp * kv * cp + vk * cv));
+    l.set(1, 0, -s.q * (pk * cv));
+    l.set(1, 1, kp - s.q * (pk * cp));
+    factor(l);
+  }
+
+  Wrench<T> wrench(const Se3Segment<T>& s) const {
+    const V3<T> ev = rate_v - s.rate_v, ep = rate_phi - s.rate_phi;
+    T w[6] = {ev.x, ev.y, ev.z, ep.x, ep.y, ep.z};
+    solve_lower(l, w);
+    solve_upper(l, w);
+    return {{w[0], w[1], w[2]}, {w[3], w[4], w[5]}};
+  }
+};
+
+/// dE/dxi = W + q M u for a wrench W; also returns u.
+template <class T>
+inline Wrench<T> force_on_xi(const Se3Segment<T>& s, const T& q, const Se3Strain<T>& x, const Wrench<T>& w,
+                             Wrench<T>& u) {
+  u.n = times(s.flexibility_v, cross(w.n, x.rate_phi));
+  u.m = times(s.flexibility_phi, cross(w.n, x.rate_v) + cross(w.m, x.rate_phi));
+  return {w.n + q * cross(w.n, u.m), w.m + q * (cross(w.n, u.n) + cross(w.m, u.m))};
+}
+
+}  // namespace detail
+
+/// Energy and gradient alone.
+template <class T>
+inline SegmentGradient<T> se3_gradient_of(const Se3Segment<T>& s, const detail::Se3Strain<T>& x) {
+  SegmentGradient<T> out;
+  const Wrench<T> w = out.wrench = x.wrench(s);
+  const V3<T> ev = x.rate_v - s.rate_v, ep = x.rate_phi - s.rate_phi;
+  out.energy = filled<T>(0.5) * s.h * (dot(ev, w.n) + dot(ep, w.m));
+  Wrench<T> u;
+  const Wrench<T> g = detail::force_on_xi(s, s.q, x, w, u);
+  const V3<T> f = transposed_times(x.a, g.n);
+  const V3<T> m = transposed_times(x.g, g.n) + g.m;
+  out.force = x.axes * f;
+  out.theta_a = -transposed_times(x.a, m) - cross(x.d, f);
+  out.theta_b = x.a * m;
+  return out;
+}
+
+template <class T>
+inline SegmentGradient<T> se3_gradient(const Se3Segment<T>& s, const Se3Ends<T>& ends) {
+  detail::Se3Strain<T> x(s, ends);
+  x.g = jacobian_derivative(x.phi, x.d, x.k, 1);
+  return se3_gradient_of(s, x);
+}
+
+/// The second derivative in (v, phi), and C^-1 (I - J)/h, with the geometric terms' wrench w.
+template <class T>
+inline void se3_curvature_on_xi(const Se3Segment<T>& s, const detail::Se3Strain<T>& x, const Wrench<T>& w,
+                                const Wrench<T>& u, detail::M6<T>& hessian, WrenchRate<T>& rate) {
+  using namespace detail;
+  const M3<T> n = cross_matrix_of(w.n), m = cross_matrix_of(w.m);
+  const M3<T> kv = diagonal_matrix(s.flexibility_v), kp = diagonal_matrix(s.flexibility_phi);
+  const M3<T> cv = cross_matrix_of(x.rate_v), cp = cross_matrix_of(x.rate_phi);
+  // M = [0 n; n m], ad = [Phi V; 0 Phi].
+  const M3<T> kpn = kp * n, kpm = kp * m, kvn = kv * n;
+  const M3<T> un = cross_matrix_of(u.n), um = cross_matrix_of(u.m);
+  M6<T> z;  // I - J
+  M3<T> identity = diagonal_matrix(V3<T>{filled<T>(1), filled<T>(1), filled<T>(1)});
+  z.set(0, 0, identity - s.q * (cv * kpn - um));
+  z.set(0, 1, -s.q * (cp * kvn + cv * kpm - un));
+  z.set(1, 0, -s.q * (cp * kpn));
+  z.set(1, 1, identity - s.q * (cp * kpm - um));
+  const T per_length = filled<T>(1) / s.h;
+#pragma GCC unroll 6
+  for (int j = 0; j < 6; ++j) {
+    T column[6];
+#pragma GCC unroll 6
+    for (int i = 0; i < 6; ++i) column[i] = z.e[i][j];
+    solve_lower(x.l, column);
+#pragma GCC unroll 6
+    for (int i = 0; i < 6; ++i) z.e[i][j] = column[i];
+    solve_upper(x.l, column);
+#pragma GCC unroll 6
+    for (int i = 0; i < 6; ++i) rate.p[i / 3][j / 3].e[3 * (i % 3) + j % 3] = per_length * column[i];
+  }
+  const T qh = s.q * per_length;
+  hessian.set(0, 0, qh * (n * kpn));
+  hessian.set(0, 1, qh * (n * kpm));
+  hessian.set(1, 1, qh * (n * kvn + m * kpm));
+#pragma GCC unroll 6
+  for (int i = 0; i < 6; ++i)
+#pragma GCC unroll 6
+    for (int j = i; j < 6; ++j) {
+      T sum = z.e[0][i] * z.e[0][j];
+#pragma GCC unroll 5
+      for (int k = 1; k < 6; ++k) sum += z.e[k][i] * z.e[k][j];
+      hessian.e[i][j] += per_length * sum;
+      hessian.e[j][i] = hessian.e[i][j];
+    }
+}
+
+/// Second derivatives of v = A(phi) d contracted with a force g, in (d, phi): rows d columns phi, and phi phi.
+template <class T>
+inline M3<T> second_derivative_of_v(const V3<T>& phi, const V3<T>& d, const V3<T>& g, const JacobianCoefficients<T>& k) {
+  const T two = filled<T>(2);
+  const T pd = dot(phi, d), pg = dot(phi, g), dg = dot(d, g), u = dot(phi, phi);
+  const T value = pd * pg - u * dg;
+  const V3<T> slope = pg * d + pd * g - two * dg * phi;
+  const M3<T> od = outer(d, g), os = outer(phi, slope);
+  M3<T> f = k.c * (od + transposed(od)) + two * k.c1 * (os + transposed(os)) +
+            filled<T>(4) * k.c2 * value * outer(phi, phi);
+  add_to_diagonal(f, two * (k.c1 * value - k.c * dg));
+  return f;
+}
+
+/// Energy, gradient, second derivative and wrench rate. `stress`: the wrench of the geometric terms.
+template <class T>
+inline SegmentGradient<T> se3_element(const Se3Segment<T>& s, const Se3Ends<T>& ends, const Wrench<T>* stress,
+                                      SegmentHessian<T>& out, WrenchRate<T>& rate) {
+  detail::Se3Strain<T> x(s, ends);
+  x.g = jacobian_derivative(x.phi, x.d, x.k, 1);
+  const SegmentGradient<T> gradient = se3_gradient_of(s, x);
+  const Wrench<T> w = stress ? *stress : gradient.wrench;
+  Wrench<T> u;
+  const Wrench<T> g = detail::force_on_xi(s, s.q, x, w, u);
+  const V3<T> f = transposed_times(x.a, g.n);
+  const V3<T> m = transposed_times(x.g, g.n) + g.m;
+  rate.axes = x.axes;
+  rate.a = x.a;
+  rate.g = x.g;
+  rate.d = x.d;
+  detail::M6<T> xi;
+  se3_curvature_on_xi(s, x, w, u, xi, rate);
+
+  // From (v, phi) to (d, phi).
+  const M3<T> vv = xi.get(0, 0), vp = xi.get(0, 1), pp = xi.get(1, 1);
+  const M3<T> at = transposed(x.a), gt = transposed(x.g);
+  const M3<T> vvg = vv * x.g + vp;
+  const M3<T> gvp = gt * vp;
+  const M3<T> h_dd = at * (vv * x.a);
+  const M3<T> h_dp = at * vvg + jacobian_derivative(x.phi, g.n, x.k, -1);
+  const M3<T> h_pp =
+      gt * (vv * x.g) + gvp + transposed(gvp) + pp + second_derivative_of_v(x.phi, x.d, g.n, x.k);
+
+  // From (d, phi) to the ends: dd = R_a^T (dr_b - dr_a) + [d] theta_a, dphi = A^T theta_b - A theta_a.
+  const M3<T> cd = cross_matrix_of(x.d);
+  const M3<T> h_dp_a = h_dp * x.a, h_dp_b = h_dp * at;
+  const M3<T> derivative = jacobian_derivative(x.phi, m, x.k, 1);
+  const M3<T> a_pp = x.a * h_pp;
+  const M3<T> h_da = h_dd * cd - h_dp_a - cross_matrix_of(f);
+  const M3<T> cd_dp_a = cd * h_dp_a;  // [d]^T = -[d]
+  M3<T> fd = outer(f, x.d);
+  fd = filled<T>(0.5) * (fd + transposed(fd));
+  add_to_diagonal(fd, -dot(f, x.d));
+  out.aa = -(cd * (h_dd * cd)) + cd_dp_a + transposed(cd_dp_a) + at * (h_pp * x.a) +
+           symmetric_part(jacobian_derivative(x.phi, m, x.k, -1) * x.a) + fd;
+  out.ab = -(cd * h_dp_b) - at * (h_pp * at) - transposed(derivative * x.a);
+  out.bb = a_pp * at + symmetric_part(derivative * at);
+  const M3<T> axes_t = transposed(x.axes);
+  out.dd = x.axes * (h_dd * axes_t);
+  out.da = x.axes * h_da;
+  out.db = x.axes * h_dp_b;
+  return gradient;
+}
+
+}  // namespace tendril

@@ -1,0 +1,84 @@
+// Mixed-stress Newton with a shift, and energy descent as its fallback.
+//
+// Plain Newton on the energy stalls on the stretch stiffness of slender rods: a bent segment looks stretched until all of
+// it has moved. Mixed-stress Newton takes residual and material stiffness from the true strains, but the wrench in the
+// geometric terms from the linearised strains of the step before, which never saw that false stretch.
+#pragma once
+
+#include <vector>
+
+#include "base/run_context.h"
+#include "statics/block_ldlt.h"
+#include "statics/rod_system.h"
+
+namespace tendril {
+
+/// Energy terms beside the rod's own: contact. Null in a scene without obstacles.
+class FurtherTerms {
+ public:
+  virtual ~FurtherTerms() = default;
+
+  /// Adds gradient and second derivative at a state; `actual`: exact curvature, else the mixed-stress one. Returns the energy.
+  virtual double assemble(const RodState& state, Stress stress, BlockSystem& system) = 0;
+
+  /// Energy alone, for descent.
+  virtual double energy(const RodState& state) = 0;
+
+  /// How much (0 ... 1) of `share` of a step may be made without crossing a surface.
+  virtual double allowed(const RodState& state, const std::vector<Vec6>& step, double share) = 0;
+
+  /// A blocked step may be tried again after the terms have stiffened: true when the system must be assembled anew.
+  virtual bool stiffen(const RodState& state, const std::vector<Vec6>& step, double share) = 0;
+
+  /// The step was made: keep the linearised forces for the next mixed-stress iteration.
+  virtual void stepped(const RodState& before, const std::vector<Vec6>& step, double share) = 0;
+};
+
+struct NewtonOptions {
+  double tolerance = 1e-9;
+  int max_iterations = 40;
+  bool stable_only = true;
+  bool warm = false;       ///< start from the actual wrenches, not from none
+  bool descend = false;    ///< energy descent (Armijo) instead of mixed stress
+};
+
+struct NewtonOutcome {
+  Status status = Status::stalled;
+  int iterations = 0;       ///< factorisations
+  double last_step = 0;
+  int negative_pivots = 0;  ///< of the last unshifted matrix
+};
+
+class Newton {
+ public:
+  Newton(RodSystem& system, FurtherTerms* further) : system_(system), further_(further) {}
+
+  /// Moves `state` to an equilibrium, or as far as it gets.
+  NewtonOutcome run(RodState& state, const NewtonOptions& options, const RunContext& context);
+
+  /// Inertia of the true second derivative at a state: the number of pivots that are not positive.
+  int negative_pivots_at(const RodState& state);
+
+ private:
+  void assemble(const RodState& state, Stress stress);
+  void add_shift(double change);
+  void take_out_held(const RodState& state);
+  int factor_positive(const NewtonOptions& options, int& factorisations);
+  void solve_step(const RodState& state);
+  void move_along_softest_mode(RodState& state);
+  double size_of_step() const;
+  double armijo_share(const RodState& state, double share) const;
+  double energy_at(const RodState& state) const;
+
+  RodSystem& system_;
+  FurtherTerms* further_;
+  BlockSystem block_;
+  BlockLdlt ldlt_;
+  std::vector<Vec6> step_;
+  std::vector<Vec6> wanted_;   ///< what is left to the holds' places; empty when they are in place
+  mutable std::vector<Vec6> scratch_;
+  double energy_ = 0;
+  double shift_ = 0, last_shift_ = 0;
+};
+
+}  // namespace tendril

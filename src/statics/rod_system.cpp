@@ -1,0 +1,92 @@
+#include "statics/rod_system.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tendril {
+
+void RodState::apply(const std::vector<Vec6>& step, double share) {
+  for (std::size_t i = 0; i < r.size(); ++i) {
+    r[i] += share * step[i].head<3>();
+    const Vec3 theta = share * step[i].tail<3>();
+    const double square = theta.squaredNorm();
+    // exp by its series where it is exact to rounding, then one Newton step of normalisation: no square root.
+    const Quat turn = square < 1e-2
+                          ? Quat(1 - square * (1.0 / 8 - square * (1.0 / 384 - square * (1.0 / 46080 - square / 10321920))),
+                                 0, 0, 0)
+                          : exp_rotation(theta);
+    if (square < 1e-2) {
+      const double scale = 0.5 - square * (1.0 / 48 - square * (1.0 / 3840 - square * (1.0 / 645120 - square / 185794560)));
+      const Quat small(turn.w(), scale * theta.x(), scale * theta.y(), scale * theta.z());
+      q[i] = q[i] * small;
+    } else {
+      q[i] = q[i] * turn;
+    }
+    q[i].coeffs() *= 1.5 - 0.5 * q[i].squaredNorm();
+  }
+}
+
+RodSystem::RodSystem(const RodProblem& problem, RodMesh mesh) : problem_(problem), mesh_(std::move(mesh)) {
+  double softest = INFINITY;
+  for (const RodPart& part : problem.rod.parts)
+    softest = std::min({softest, part.section.EI1, part.section.EI2});
+  bending_scale_ = softest / (length() * length());
+}
+
+double RodSystem::assemble(const RodState& state, Stress stress, BlockSystem& system) {
+  system.resize(nodes_);
+  const double energy = assemble_elements(state, stress, system);
+  return energy + add_loads(state, system.gradient, &system.diagonal);
+}
+
+double RodSystem::gradient(const RodState& state, std::vector<Vec6>& gradient) {
+  gradient.assign(nodes_, Vec6::Zero());
+  const double energy = element_gradient(state, gradient);
+  return energy + add_loads(state, gradient, nullptr);
+}
+
+double RodSystem::add_loads(const RodState& state, std::vector<Vec6>& gradient, std::vector<Mat6>* diagonal) const {
+  double energy = 0;
+  for (std::size_t i = 0; i < weight_.size(); ++i) {
+    gradient[i].head<3>() -= weight_[i];
+    energy -= weight_[i].dot(state.r[i]);
+  }
+  for (std::size_t i = 0; i < weight_slope_.size(); ++i) {
+    if (weight_slope_[i].isZero(0)) continue;
+    const Vec3 b = state.q[i].conjugate() * weight_slope_[i];
+    energy += b.z();
+    gradient[i].tail<3>() += Vec3(-b.y(), b.x(), 0);
+    if (!diagonal) continue;
+    auto block = (*diagonal)[i].bottomRightCorner<3, 3>();
+    block(0, 0) -= b.z();
+    block(1, 1) -= b.z();
+    block(0, 2) += 0.5 * b.x();
+    block(2, 0) += 0.5 * b.x();
+    block(1, 2) += 0.5 * b.y();
+    block(2, 1) += 0.5 * b.y();
+  }
+  for (const Force& load : forces_) {
+    gradient[load.node].head<3>() -= load.force;
+    energy -= load.force.dot(state.r[load.node]);
+  }
+  for (const Moment& load : moments_)
+    gradient[load.node].tail<3>() -= state.q[load.node].conjugate() * load.moment;
+  return energy;
+}
+
+void RodSystem::describe_loads(const RodState& state, Energy& energy) const {
+  for (std::size_t i = 0; i < weight_.size(); ++i) energy.gravity -= weight_[i].dot(state.r[i]);
+  for (std::size_t i = 0; i < weight_slope_.size(); ++i)
+    energy.gravity += weight_slope_[i].dot(state.q[i] * Vec3::UnitZ());
+  for (const Force& load : forces_) energy.load -= load.force.dot(state.r[load.node]);
+}
+
+std::vector<RodSystem::MomentTerm> RodSystem::moment_terms(const RodState& state) const {
+  std::vector<MomentTerm> terms;
+  for (const Moment& load : moments_)
+    if (!(held_[load.node] & held_rotation))
+      terms.push_back({load.node, state.q[load.node].conjugate() * load.moment});
+  return terms;
+}
+
+}  // namespace tendril

@@ -1,0 +1,115 @@
+// The discrete energy of one rod as Newton's method sees it: nodes with a position and a rotation each, which unknowns are
+// held, and the energy, gradient and second derivative. One implementation per element.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "statics/block_system.h"
+#include "statics/equilibrium.h"
+#include "statics/rod_mesh.h"
+
+namespace tendril {
+
+/// Position (m) and rotation of every node.
+struct RodState {
+  std::vector<Vec3> r;
+  std::vector<Quat> q;
+
+  /// r <- r + share dr, R <- R exp(share theta).
+  void apply(const std::vector<Vec6>& step, double share);
+};
+
+/// Which wrench the geometric terms of the second derivative use: none, the predicted one, or the actual one. `rough` is
+/// the predicted one far from the solution: the element then leaves out its fourth-order correction, whose softer shear
+/// would let a wrong wrench make the matrix indefinite.
+enum class Stress { zero, rough, predicted, actual };
+
+/// Held unknowns of a node, one bit each in the order of block_system.h.
+using HeldMask = std::uint8_t;
+inline constexpr HeldMask held_position = 0b000111, held_rotation = 0b111000, held_all = 0b111111;
+
+class RodSystem {
+ public:
+  RodSystem(const RodProblem& problem, RodMesh mesh);
+  virtual ~RodSystem() = default;
+
+  const RodMesh& mesh() const { return mesh_; }
+  const RodProblem& problem() const { return problem_; }
+  int nodes() const { return nodes_; }
+  double length() const { return problem_.rod.length; }
+  double bending_scale() const { return bending_scale_; }  ///< smallest EI / L^2, N
+  const std::vector<HeldMask>& held() const { return held_; }
+  /// Where the held nodes belong.
+  struct Target {
+    int node;
+    HeldMask mask;
+    Frame frame;
+  };
+  const std::vector<Target>& targets() const { return targets_; }
+  const std::vector<double>& node_length() const { return node_length_; }  ///< m of rod that a node stands for
+  bool has_moments() const { return !moments_.empty(); }
+
+  /// Nodes from vertex frames (the first guess or another solution); and back.
+  virtual RodState state_from(const std::vector<Frame>& vertices) const = 0;
+  virtual std::vector<Frame> frames_of(const RodState& state) const = 0;
+
+  /// Overwrites the system. Held unknowns are not yet taken out. Returns the energy.
+  double assemble(const RodState& state, Stress stress, BlockSystem& system);
+
+  /// Energy and gradient alone.
+  double gradient(const RodState& state, std::vector<Vec6>& gradient);
+
+  /// After assemble(): the wrench that the linearised step leads to becomes the predicted one.
+  virtual void predict(const std::vector<Vec6>& step, double share) = 0;
+
+  /// Stiffness EA and GA no larger than this (N); infinity: the true ones.
+  virtual void cap_stretch_stiffness(double limit) = 0;
+
+  /// Fills energies, forces, strains, curvatures and moments of a solution.
+  virtual void describe(const RodState& state, Equilibrium& out) = 0;
+
+  /// Adds what hold k exerts on the rod (world axes), from the gradient of all terms.
+  virtual void add_reaction(int hold, const RodState& state, const std::vector<Vec6>& gradient, Reaction& out) const = 0;
+
+  /// Antisymmetric part of the second derivative: node and R^T m of every dead moment.
+  struct MomentTerm {
+    int node;
+    Vec3 body_moment;
+  };
+  std::vector<MomentTerm> moment_terms(const RodState& state) const;
+
+ protected:
+  virtual double assemble_elements(const RodState& state, Stress stress, BlockSystem& system) = 0;
+  virtual double element_gradient(const RodState& state, std::vector<Vec6>& gradient) = 0;
+
+  /// -w.r and -F.r summed over nodes, and the end terms of the fourth-order gravity rule.
+  double add_loads(const RodState& state, std::vector<Vec6>& gradient, std::vector<Mat6>* diagonal) const;
+  void describe_loads(const RodState& state, Energy& energy) const;
+
+  RodProblem problem_;
+  RodMesh mesh_;
+  int nodes_ = 0;
+  double bending_scale_ = 0;
+  std::vector<HeldMask> held_;
+  std::vector<Target> targets_;
+  std::vector<double> node_length_;
+  std::vector<Vec3> weight_;        ///< per node, N; empty without gravity
+  std::vector<Vec3> weight_slope_;  ///< per node, N m: energy weight_slope . R e3; empty: no such term
+  struct Force {
+    int node;
+    Vec3 force;
+  };
+  struct Moment {
+    int node;
+    Vec3 moment;
+  };
+  std::vector<Force> forces_;
+  std::vector<Moment> moments_;
+};
+
+/// The system of the problem's rod with the element and clamp rule of the options.
+std::unique_ptr<RodSystem> make_rod_system(const RodProblem& problem, const SolveOptions& options, RodMesh mesh);
+
+}  // namespace tendril

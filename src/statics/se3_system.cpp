@@ -1,0 +1,259 @@
+#include "statics/se3_system.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tendril {
+namespace {
+
+void put(V3<Pack>& to, const Vec3& v, int i) {
+  lane(to.x, i) = v.x();
+  lane(to.y, i) = v.y();
+  lane(to.z, i) = v.z();
+}
+
+Vec3 get(const V3<Pack>& v, int i) { return {lane(v.x, i), lane(v.y, i), lane(v.z, i)}; }
+
+/// xi of a relative frame: (v, phi) with v = A(phi) d.
+void log_of(const Frame& relative, Vec3& v, Vec3& phi) {
+  JacobianCoefficients<double> k;
+  const Quat& q = relative.rotation;
+  const V3<double> p = rotation_log<double>({q.w(), {q.x(), q.y(), q.z()}}, k);
+  const V3<double> a = inverse_left_jacobian(p, k.c) * V3<double>{relative.at.x(), relative.at.y(), relative.at.z()};
+  v = {a.x, a.y, a.z};
+  phi = {p.x, p.y, p.z};
+}
+
+/// Adds (or sets) a 3x3 block of one lane to a column-major 6x6 matrix.
+template <int row, int column, bool transpose = false>
+inline void add(double* to, const M3<Pack>& m, int i, double sign = 1) {
+#pragma GCC unroll 3
+  for (int r = 0; r < 3; ++r)
+#pragma GCC unroll 3
+    for (int c = 0; c < 3; ++c)
+      to[row + r + 6 * (column + c)] += sign * lane(transpose ? m(c, r) : m(r, c), i);
+}
+
+}  // namespace
+
+Se3System::Se3System(const RodProblem& problem, RodMesh mesh, bool fourth_order)
+    : RodSystem(problem, std::move(mesh)), fourth_order_(fourth_order) {
+  nodes_ = mesh_.vertices();
+  const int segments = nodes_ - 1;
+  held_.assign(nodes_, 0);
+  node_length_.assign(nodes_, 0);
+  for (std::size_t k = 0; k < problem_.holds.size(); ++k) {
+    const Hold& hold = problem_.holds[k];
+    const int mask = (hold.position ? held_position : 0) | (hold.orientation ? held_rotation : 0);
+    held_[mesh_.hold_vertex[k]] |= mask;
+    targets_.push_back({mesh_.hold_vertex[k], static_cast<HeldMask>(mask), hold.frame});
+  }
+  for (std::size_t k = 0; k < problem_.loads.size(); ++k) {
+    const int node = mesh_.load_vertex[k];
+    if (!problem_.loads[k].force.isZero(0)) forces_.push_back({node, problem_.loads[k].force});
+    if (!problem_.loads[k].moment.isZero(0)) moments_.push_back({node, problem_.loads[k].moment});
+  }
+  const bool heavy = !problem_.gravity.isZero(0) && problem_.rod.mass() > 0;
+  if (heavy) {
+    weight_.assign(nodes_, Vec3::Zero());
+    if (fourth_order) weight_slope_.assign(nodes_, Vec3::Zero());
+  }
+  segments_.resize((segments + 3) / 4);
+  for (int i = 0; i < 4 * packs(); ++i) {
+    // Lanes behind the last segment repeat it, so that they stay harmless; nothing of them is read.
+    const int real = std::min(i, segments - 1);
+    const MeshSegment& from = mesh_.segments[real];
+    Se3Segment<Pack>& to = segments_[i / 4];
+    const int l = i % 4;
+    const double h = from.length;
+    Vec3 v, phi;
+    log_of(from.reference, v, phi);
+    lane(to.h, l) = h;
+    lane(to.q, l) = fourth_order ? h * h / 12 : 0;
+    put(to.flexibility_v, Vec3(1 / from.section.GA1, 1 / from.section.GA2, 1 / from.section.EA), l);
+    put(to.flexibility_phi, Vec3(1 / from.section.EI1, 1 / from.section.EI2, 1 / from.section.GJ), l);
+    put(to.rate_v, v / h, l);
+    put(to.rate_phi, phi / h, l);
+    if (i >= segments) continue;
+    node_length_[i] += 0.5 * h;
+    node_length_[i + 1] += 0.5 * h;
+    if (!heavy) continue;
+    const Vec3 w = from.section.mass * problem_.gravity;
+    weight_[i] += 0.5 * h * w;
+    weight_[i + 1] += 0.5 * h * w;
+    if (!fourth_order) continue;
+    weight_slope_[i] -= h * h / 12 * w;
+    weight_slope_[i + 1] += h * h / 12 * w;
+  }
+  if (heavy && fourth_order) {
+    // Between equal segments the terms of both sides cancel up to rounding; clear them so that they cost nothing.
+    for (int i = 1; i < segments; ++i)
+      if (weight_slope_[i].norm() < 1e-12 * weight_slope_[0].norm()) weight_slope_[i].setZero();
+  }
+  actual_.resize(packs());
+  predicted_.resize(packs());
+  rates_.resize(packs());
+}
+
+void Se3System::cap_stretch_stiffness(double limit) {
+  for (int i = 0; i < 4 * packs(); ++i) {
+    const Section& section = mesh_.segments[std::min(i, nodes_ - 2)].section;
+    put(segments_[i / 4].flexibility_v,
+        Vec3(1 / std::min(limit, section.GA1), 1 / std::min(limit, section.GA2), 1 / std::min(limit, section.EA)), i % 4);
+  }
+}
+
+RodState Se3System::state_from(const std::vector<Frame>& vertices) const {
+  RodState state;
+  state.r.reserve(nodes_);
+  state.q.reserve(nodes_);
+  for (const Frame& frame : vertices) {
+    state.r.push_back(frame.at);
+    state.q.push_back(frame.rotation);
+  }
+  return state;
+}
+
+std::vector<Frame> Se3System::frames_of(const RodState& state) const {
+  std::vector<Frame> frames(nodes_);
+  for (int i = 0; i < nodes_; ++i) frames[i] = {state.r[i], state.q[i]};
+  return frames;
+}
+
+Se3Ends<Pack> Se3System::ends(const RodState& state, int pack) const {
+  Se3Ends<Pack> e;
+  const int last = mesh_.vertices() - 2;
+  for (int l = 0; l < 4; ++l) {
+    const int i = std::min(4 * pack + l, last);
+    const Quat &qa = state.q[i], &qb = state.q[i + 1];
+    lane(e.qa.w, l) = qa.w();
+    put(e.qa.v, qa.vec(), l);
+    lane(e.qb.w, l) = qb.w();
+    put(e.qb.v, qb.vec(), l);
+    put(e.ra, state.r[i], l);
+    put(e.rb, state.r[i + 1], l);
+  }
+  return e;
+}
+
+double Se3System::assemble_elements(const RodState& state, Stress stress, BlockSystem& system) {
+  for (int i = 0; i < nodes_; ++i) {
+    system.gradient[i].setZero();
+    system.diagonal[i].setZero();
+  }
+  const Wrench<Pack> nothing{};
+  double energy = 0;
+  for (int p = 0; p < packs(); ++p) {
+    const Wrench<Pack>* w =
+        stress == Stress::zero ? &nothing : stress == Stress::actual ? nullptr : &predicted_[p];
+    const bool corrected = fourth_order_ && (stress == Stress::predicted || stress == Stress::actual);
+    segments_[p].q = corrected ? segments_[p].h * segments_[p].h * (1.0 / 12) : Pack{};
+    SegmentHessian<Pack> h;
+    const SegmentGradient<Pack> g = se3_element(segments_[p], ends(state, p), w, h, rates_[p]);
+    actual_[p] = g.wrench;
+    for (int l = 0; l < lanes_in(p); ++l) {
+      const int a = 4 * p + l, b = a + 1;
+      energy += lane(g.energy, l);
+      const Vec3 f = get(g.force, l);
+      system.gradient[a].head<3>() -= f;
+      system.gradient[b].head<3>() += f;
+      system.gradient[a].tail<3>() += get(g.theta_a, l);
+      system.gradient[b].tail<3>() += get(g.theta_b, l);
+      double* da = system.diagonal[a].data();
+      double* db = system.diagonal[b].data();
+      double* u = system.upper[a].data();
+      system.upper[a].setZero();
+      add<0, 0>(da, h.dd, l);
+      add<0, 3>(da, h.da, l, -1);
+      add<3, 0, true>(da, h.da, l, -1);
+      add<3, 3>(da, h.aa, l);
+      add<0, 0>(db, h.dd, l);
+      add<0, 3>(db, h.db, l);
+      add<3, 0, true>(db, h.db, l);
+      add<3, 3>(db, h.bb, l);
+      add<0, 0>(u, h.dd, l, -1);
+      add<0, 3>(u, h.db, l, -1);
+      add<3, 0, true>(u, h.da, l);
+      add<3, 3>(u, h.ab, l);
+    }
+  }
+  return energy;
+}
+
+double Se3System::element_gradient(const RodState& state, std::vector<Vec6>& gradient) {
+  double energy = 0;
+  for (int p = 0; p < packs(); ++p) {
+    const SegmentGradient<Pack> g = se3_gradient(segments_[p], ends(state, p));
+    for (int l = 0; l < lanes_in(p); ++l) {
+      const int a = 4 * p + l, b = a + 1;
+      energy += lane(g.energy, l);
+      const Vec3 f = get(g.force, l);
+      gradient[a].head<3>() -= f;
+      gradient[b].head<3>() += f;
+      gradient[a].tail<3>() += get(g.theta_a, l);
+      gradient[b].tail<3>() += get(g.theta_b, l);
+    }
+  }
+  return energy;
+}
+
+void Se3System::predict(const std::vector<Vec6>& step, double share) {
+  const Pack scale = filled<Pack>(share);
+  for (int p = 0; p < packs(); ++p) {
+    V3<Pack> dr{}, ta{}, tb{};
+    for (int l = 0; l < lanes_in(p); ++l) {
+      const Vec6 &a = step[4 * p + l], &b = step[4 * p + l + 1];
+      put(dr, b.head<3>() - a.head<3>(), l);
+      put(ta, a.tail<3>(), l);
+      put(tb, b.tail<3>(), l);
+    }
+    const Wrench<Pack> change = rates_[p].change(dr, ta, tb);
+    predicted_[p] = {actual_[p].n + scale * change.n, actual_[p].m + scale * change.m};
+  }
+}
+
+void Se3System::describe(const RodState& state, Equilibrium& out) {
+  const int segments = nodes_ - 1;
+  out.forces.resize(segments);
+  out.strains.resize(segments);
+  out.curvatures.resize(segments);
+  out.curvature_changes.resize(segments);
+  out.moments.resize(segments);
+  for (int p = 0; p < packs(); ++p) {
+    const Se3Segment<Pack>& s = segments_[p];
+    const Se3Ends<Pack> e = ends(state, p);
+    const detail::Se3Strain<Pack> x(s, e);
+    const SegmentGradient<Pack> g = se3_gradient(s, e);
+    Wrench<Pack> u;
+    detail::force_on_xi(s, s.q, x, g.wrench, u);
+    for (int l = 0; l < lanes_in(p); ++l) {
+      const int i = 4 * p + l;
+      const Section& section = mesh_.segments[i].section;
+      const double h = mesh_.segments[i].length;
+      const double q = lane(s.q, l);
+      const Vec3 n = get(g.wrench.n, l), m = get(g.wrench.m, l), un = get(u.n, l), um = get(u.m, l);
+      const Vec3 kv(section.GA1, section.GA2, section.EA), kp(section.EI1, section.EI2, section.GJ);
+      out.forces[i] = get(g.force, l);
+      out.moments[i] = m;
+      out.strains[i] = n.cwiseQuotient(kv);
+      out.curvature_changes[i] = m.cwiseQuotient(kp);
+      out.curvatures[i] = out.curvature_changes[i] + get(s.rate_phi, l);
+      // Mid-segment strain and its variation along the segment, both by component.
+      const Vec3 stretch = 0.5 * h * (n.cwiseAbs2().cwiseQuotient(kv) + q * un.cwiseAbs2().cwiseProduct(kv));
+      const Vec3 turn = 0.5 * h * (m.cwiseAbs2().cwiseQuotient(kp) + q * um.cwiseAbs2().cwiseProduct(kp));
+      out.energy.shear += stretch.x() + stretch.y();
+      out.energy.stretch += stretch.z();
+      out.energy.bend += turn.x() + turn.y();
+      out.energy.twist += turn.z();
+    }
+  }
+  describe_loads(state, out.energy);
+}
+
+void Se3System::add_reaction(int hold, const RodState& state, const std::vector<Vec6>& gradient, Reaction& out) const {
+  const Target& target = targets_[hold];
+  if (target.mask & held_position) out.force += gradient[target.node].head<3>();
+  if (target.mask & held_rotation) out.moment += state.q[target.node] * Vec3(gradient[target.node].tail<3>());
+}
+
+}  // namespace tendril

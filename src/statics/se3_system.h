@@ -1,0 +1,36 @@
+// One rod of fourth-order SE(3) elements: nodes are the vertices, four segments are worked on at once.
+#pragma once
+
+#include "rod/se3_element.h"
+#include "statics/rod_system.h"
+
+namespace tendril {
+
+class Se3System final : public RodSystem {
+ public:
+  /// `fourth_order` false: the second-order element with constant strain, which stays convex under high tension.
+  Se3System(const RodProblem& problem, RodMesh mesh, bool fourth_order = true);
+
+  RodState state_from(const std::vector<Frame>& vertices) const override;
+  std::vector<Frame> frames_of(const RodState& state) const override;
+  void predict(const std::vector<Vec6>& step, double share) override;
+  void cap_stretch_stiffness(double limit) override;
+  void describe(const RodState& state, Equilibrium& out) override;
+  void add_reaction(int hold, const RodState& state, const std::vector<Vec6>& gradient, Reaction& out) const override;
+
+ protected:
+  double assemble_elements(const RodState& state, Stress stress, BlockSystem& system) override;
+  double element_gradient(const RodState& state, std::vector<Vec6>& gradient) override;
+
+ private:
+  int packs() const { return static_cast<int>(segments_.size()); }
+  int lanes_in(int pack) const { return std::min(4, mesh_.vertices() - 1 - 4 * pack); }
+  Se3Ends<Pack> ends(const RodState& state, int pack) const;
+
+  std::vector<Se3Segment<Pack>> segments_;
+  std::vector<Wrench<Pack>> actual_, predicted_;
+  std::vector<WrenchRate<Pack>> rates_;
+  bool fourth_order_;
+};
+
+}  // namespace tendril

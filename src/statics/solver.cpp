@@ -1,0 +1,131 @@
+#include "statics/solver.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "statics/first_guess.h"
+
+namespace tendril {
+namespace {
+
+/// Stretch stiffness that the softened fallback works with: enough that nothing else changes much.
+double softened_stiffness(const RodSystem& system) {
+  const RodProblem& problem = system.problem();
+  double loads = problem.rod.mass() * problem.gravity.norm();
+  for (const PointLoad& load : problem.loads) loads += load.force.norm() + load.moment.norm() / system.length();
+  return std::max(1e4 * system.bending_scale(), 50 * loads);
+}
+
+std::string explain_failure(const NewtonOutcome& outcome, const RodSystem& system) {
+  char text[256];
+  switch (outcome.status) {
+    case Status::cancelled: return "interrupted; this is the best state so far";
+    case Status::timeout: return "out of time; this is the best state so far";
+    default: break;
+  }
+  std::snprintf(text, sizeof text,
+                "no equilibrium found in %d iterations (last step %.1e, %d negative pivots, %d vertices); try more segments, "
+                "or move the holds there in steps",
+                outcome.iterations, outcome.last_step, outcome.negative_pivots, system.mesh().vertices());
+  return text;
+}
+
+}  // namespace
+
+RodSolver::RodSolver(const RodProblem& problem, const SolveOptions& options, int segments, int refinement)
+    : options_(options),
+      system_(make_rod_system(problem, options, cut_into_segments(problem, segments, refinement))),
+      newton_(*system_, nullptr) {}
+
+RodState RodSolver::starting_state(const Equilibrium* from) const {
+  if (!from || from->s.empty()) return system_->state_from(first_guess(system_->problem(), system_->mesh()));
+  const std::vector<double>& s = system_->mesh().s;
+  const double stretch = from->s.back() / s.back();
+  std::vector<Frame> frames;
+  frames.reserve(s.size());
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    if (from->s.size() == s.size())
+      frames.push_back({from->points[i], from->rotations[i]});
+    else
+      frames.push_back(from->frame_at(s[i] * stretch));
+  }
+  return system_->state_from(frames);
+}
+
+NewtonOutcome RodSolver::iterate(RodState& state, bool warm, const RunContext& context) {
+  NewtonOptions options;
+  options.tolerance = options_.tolerance;
+  options.max_iterations = std::min(40, options_.max_iterations);
+  options.stable_only = options_.stable_only;
+  options.warm = warm;
+  return newton_.run(state, options, context);
+}
+
+NewtonOutcome RodSolver::with_fallbacks(RodState& state, bool warm, const RunContext& context, int& fallbacks) {
+  const RodState start = state;
+  NewtonOutcome outcome = iterate(state, warm, context);
+  if (outcome.status != Status::stalled) return outcome;
+  int spent = outcome.iterations;
+  auto attempt = [&](bool descend, int most, bool from_start) {
+    if (from_start) state = start;
+    NewtonOptions options;
+    options.tolerance = options_.tolerance;
+    options.stable_only = true;
+    options.descend = descend;
+    options.warm = !descend && !from_start;
+    options.max_iterations = std::min(most, options_.max_iterations - spent);
+    outcome = newton_.run(state, options, context);
+    outcome.iterations = spent += outcome.iterations;
+  };
+  // B: down the energy of a rod that stretches easily, then mixed-stress steps on the true one.
+  ++fallbacks;
+  system_->cap_stretch_stiffness(softened_stiffness(*system_));
+  attempt(true, 300, true);
+  system_->cap_stretch_stiffness(INFINITY);
+  if (outcome.status == Status::cancelled || outcome.status == Status::timeout) return outcome;
+  attempt(false, 60, false);
+  if (outcome.status != Status::stalled) return outcome;
+  // C: down the true energy.
+  ++fallbacks;
+  attempt(true, options_.max_iterations, true);
+  return outcome;
+}
+
+Equilibrium RodSolver::solve(const RunContext& context, const Equilibrium* from) {
+  Equilibrium out;
+  RodState state = starting_state(from);
+  const NewtonOutcome outcome = with_fallbacks(state, from != nullptr, context, out.fallbacks);
+  out.status = outcome.status;
+  out.iterations = outcome.iterations;
+  out.last_step = outcome.last_step;
+  out.negative_pivots = outcome.negative_pivots;
+  out.stable = outcome.status == Status::solved && outcome.negative_pivots == 0;
+  out.message = out.ok() ? "solved" : explain_failure(outcome, *system_);
+  describe(state, out);
+  return out;
+}
+
+void RodSolver::describe(const RodState& state, Equilibrium& out) {
+  const RodMesh& mesh = system_->mesh();
+  out.s = mesh.s;
+  for (const Frame& frame : system_->frames_of(state)) {
+    out.points.push_back(frame.at);
+    out.rotations.push_back(frame.rotation);
+  }
+  for (const MeshSegment& segment : mesh.segments) out.radii.push_back(segment.section.radius());
+  system_->describe(state, out);
+  system_->gradient(state, gradient_);
+  out.reactions.resize(system_->problem().holds.size());
+  for (std::size_t k = 0; k < out.reactions.size(); ++k) {
+    const Hold& hold = system_->problem().holds[k];
+    out.reactions[k].s = hold.at;
+    system_->add_reaction(static_cast<int>(k), state, gradient_, out.reactions[k]);
+  }
+  for (int i = 0; i < system_->nodes(); ++i)
+    for (int k = 0; k < 6; ++k)
+      if (!(system_->held()[i] >> k & 1))
+        out.residual = std::max(out.residual, std::abs(gradient_[i][k]) / (k < 3 ? 1 : system_->length()));
+}
+
+}  // namespace tendril
