@@ -43,14 +43,28 @@ int guarded(lua_State* L, Body body) {
   return lua_error(L);  // outside the catch: the exception object is gone
 }
 
+/// Around one bound function: whether it asks for a RunContext, and the end of its progress line if it did.
+class Computation {
+ public:
+  explicit Computation(Context& context) : context_(context), outside_(std::exchange(context.cancel_polled, false)) {}
+  ~Computation() {
+    if (context_.cancel_polled && context_.computation_ended) context_.computation_ended();
+    context_.cancel_polled = outside_;
+  }
+  Computation(const Computation&) = delete;
+  Computation& operator=(const Computation&) = delete;
+
+ private:
+  Context& context_;
+  bool outside_;
+};
+
 int call_bound(lua_State* L) {
   const auto& record = *static_cast<const FunctionRecord*>(lua_touserdata(L, lua_upvalueindex(1)));
   return guarded(L, [&] {
-    Context& c = context(L);
-    const bool polled_outside = std::exchange(c.cancel_polled, false);
+    const Computation computation(context(L));
     const int results = record.body(L);
     give_grace(L);
-    c.cancel_polled = polled_outside;
     return results;
   });
 }
@@ -151,6 +165,7 @@ FunctionRecord& new_operation(lua_State* L, const std::string& class_name, const
   auto record = std::make_unique<FunctionRecord>();
   record->name = class_name + " " + symbol_of(event);
   record->call = FunctionRecord::Call::operation;
+  record->event = event;
   auto& operations = context(L).registry->operations;
   operations.push_back(std::move(record));
   return *operations.back();
@@ -199,12 +214,14 @@ void ClassBuilder::add_method(const char* name, const FunctionRecord& method) {
 void ClassBuilder::add_meta(const char* event, const FunctionRecord& operation) {
   lua_rawgetp(L, LUA_REGISTRYINDEX, record.key);
   push_function(L, operation);
+  record.operations.push_back(&operation);
   lua_setfield(L, -2, event);
   lua_pop(L, 1);
 }
 
 void ClassBuilder::set_list_length(std::function<lua_Integer(lua_State*, int)> length) {
   FunctionRecord& operation = new_operation(L, record.name, "__len");
+  operation.returns = "integer";
   operation.body = [length = std::move(length), key = record.key](lua_State* state) {
     if (!object_memory(state, 1, key)) throw UsageError("#: got " + lua::describe(state, 1));
     lua_pushinteger(state, length(state, 1));

@@ -61,7 +61,8 @@ struct Argument {
     return Value<T>::read(at.L, index);
   }
   static void describe(FunctionRecord& record, std::vector<const char*>& names, bool is_object) {
-    if (is_object || record.call == FunctionRecord::Call::operation) return;
+    if (is_object) return;
+    if (record.call == FunctionRecord::Call::operation) names = {"operand"};
     if (names.empty()) throw std::logic_error(record.name + ": a parameter has no name");
     record.parameters.push_back({names.front(), &Value<T>::kind()});
     names.erase(names.begin());

@@ -24,6 +24,7 @@ struct Context {
 
   const std::atomic<bool>* cancel = nullptr;  ///< set by Ctrl-C; null: nothing interrupts this state
   std::function<void(double share, const char* what)> progress;  ///< shown while something long runs; empty: not shown
+  std::function<void()> computation_ended;  ///< a bound function that took a RunContext has returned; may be empty
   bool colour = false;        ///< escapes allowed on standard output
   std::string script_folder;  ///< of the running script, "" for none; ends without a slash
   std::size_t memory_used = 0;

@@ -23,6 +23,7 @@ struct FunctionRecord {
 
   std::string name;   ///< as a user calls it: "vec", "rod.section", "scene:solve", "vec *"
   Call call = Call::function;
+  std::string event;  ///< of an operation: "__mul"
   std::vector<Parameter> parameters;  ///< positional, without the object and without the options table
   Schema options;
   bool takes_options = false;
@@ -46,6 +47,7 @@ struct ClassRecord {
   const void* key = nullptr;
   std::map<std::string, PropertyRecord, std::less<>> properties;
   std::map<std::string, const FunctionRecord*, std::less<>> methods;
+  std::vector<const FunctionRecord*> operations;
 
   /// Members that depend on the object, such as the measures of a variation: their names, and push by name (true when
   /// there is one).

@@ -9,6 +9,8 @@ void open_tendril(lua_State* L) {
   bind_units(L);
   bind_vec(L);
   bind_frame(L);
+  bind_help(L);
+  bind_time(L);
 }
 
 }  // namespace tendril::lua

@@ -12,5 +12,7 @@ void open_tendril(lua_State* L);
 void bind_units(lua_State* L);
 void bind_vec(lua_State* L);
 void bind_frame(lua_State* L);
+void bind_help(lua_State* L);
+void bind_time(lua_State* L);
 
 }  // namespace tendril::lua

@@ -96,33 +96,51 @@ Vec3 displacement_of(const ContactPoint& p, const VertexShape& shape, std::span<
   return dx;
 }
 
-void moved_positions(std::span<const ContactPoint> points, const VertexShape& shape, std::span<const Vec6> step,
-                     double share, std::vector<Vec3>& out) {
+namespace {
+
+/// Positions of all points, each vertex being asked once: `point_of` and `normal_of` give its place and section normal.
+template <class PointOf, class NormalOf>
+void fill_positions(std::span<const ContactPoint> points, PointOf point_of, NormalOf normal_of, std::vector<Vec3>& out) {
   out.resize(points.size());
-  const auto moved_point = [&](int v) -> Vec3 { return shape.points[v] + share * step[v].head<3>(); };
-  const auto moved_normal = [&](int v) -> Vec3 {
-    return shape.rotations[v] * (exp_rotation(share * step[v].tail<3>()) * Vec3::UnitZ());
-  };
   int segment = -1;
   bool turned = false;  // the section normals of this segment are at hand
   Vec3 ra = Vec3::Zero(), rb = ra, ta = ra, tb = ra;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const ContactPoint& p = points[i];
     if (p.segment != segment) {
-      ra = segment == p.segment - 1 && segment >= 0 ? rb : moved_point(p.segment);
-      rb = moved_point(p.segment + 1);
+      const bool next = segment >= 0 && p.segment == segment + 1;
+      ra = next ? rb : point_of(p.segment);
+      rb = point_of(p.segment + 1);
       segment = p.segment;
       turned = false;
     }
     out[i] = p.ra * ra + p.rb * rb;
     if (p.ta == 0 && p.tb == 0) continue;
     if (!turned) {
-      ta = moved_normal(segment);
-      tb = moved_normal(segment + 1);
+      ta = normal_of(segment);
+      tb = normal_of(segment + 1);
       turned = true;
     }
     out[i] += p.ta * ta + p.tb * tb;
   }
+}
+
+}  // namespace
+
+void positions_of(std::span<const ContactPoint> points, const VertexShape& shape, std::vector<Vec3>& out) {
+  fill_positions(
+      points, [&](int v) -> Vec3 { return shape.points[v]; },
+      [&](int v) -> Vec3 { return shape.rotations[v] * Vec3::UnitZ(); }, out);
+}
+
+void moved_positions(std::span<const ContactPoint> points, const VertexShape& shape, std::span<const Vec6> step,
+                     double share, std::vector<Vec3>& out) {
+  fill_positions(
+      points, [&](int v) -> Vec3 { return shape.points[v] + share * step[v].head<3>(); },
+      [&](int v) -> Vec3 {
+        return shape.rotations[v] * (exp_rotation(share * step[v].tail<3>()) * Vec3::UnitZ());
+      },
+      out);
 }
 
 void add_point_energy(const ContactPoint& p, const VertexShape& shape, const Vec3& gradient, const Mat3& hessian,

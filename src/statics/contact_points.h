@@ -50,6 +50,9 @@ Vec3 position_of(const ContactPoint& point, const VertexShape& shape);
 /// First-order motion of the point (m) under the increments `step` of all vertices (block_system.h).
 Vec3 displacement_of(const ContactPoint& point, const VertexShape& shape, std::span<const Vec6> step);
 
+/// Positions of all points (m).
+void positions_of(std::span<const ContactPoint> points, const VertexShape& shape, std::vector<Vec3>& out);
+
 /// Positions of all points after `share` times the increments `step` has really been applied:
 /// r + share dr, R exp(share theta).
 void moved_positions(std::span<const ContactPoint> points, const VertexShape& shape, std::span<const Vec6> step,

@@ -98,6 +98,10 @@ void ContactSet::predict(const VertexShape& shape, std::span<const Vec6> step, d
   }
 }
 
+void ContactSet::predict_standing() {
+  for (int i = 0; i < size(); ++i) predicted_[i] = at(i) ? at(i)->gradient : Vec3::Zero();
+}
+
 void ContactSet::forget_prediction() { std::fill(predicted_.begin(), predicted_.end(), Vec3::Zero()); }
 
 void ContactSet::update_shifts() {

@@ -40,6 +40,7 @@ class ContactSet {
 
   /// Stores the force that the linearisation at the last positions predicts after `share` of `step`.
   void predict(const VertexShape& shape, std::span<const Vec6> step, double share);
+  void predict_standing();  ///< the forces of the last positions, as they are
   void forget_prediction();
 
   /// A number that the distance of point i from all surfaces cannot be below when it is at `x` (m).

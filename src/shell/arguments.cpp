@@ -1,0 +1,85 @@
+#include "shell/arguments.h"
+
+#include <cstring>
+
+#include "base/error.h"
+#include "base/nearest_name.h"
+
+namespace tendril::shell {
+namespace {
+
+UsageError unknown(const std::string& option) {
+  static const std::vector<std::string> known = {"--help", "--version", "--annotations", "-e", "-i", "-l", "-v", "-h", "-E", "-W"};
+  const std::string near = option.starts_with("--") ? nearest_name(option, known) : "";
+  return UsageError("unrecognized option '" + option + "'" + (near.empty() ? "" : "; did you mean '" + near + "'?"));
+}
+
+/// The long options and -h end the reading: nothing after them counts.
+bool read_long(const std::string& option, Arguments& arguments) {
+  if (option == "--help" || option == "-h") arguments.mode = Arguments::Mode::help;
+  else if (option == "--version") arguments.mode = Arguments::Mode::version_only;
+  else if (option == "--annotations") arguments.mode = Arguments::Mode::annotations;
+  else return false;
+  return true;
+}
+
+/// -e and -l: their text is the rest of the argument or the next argument. Moves `i` to the last one used.
+Step read_step(int argc, const char* const* argv, int& i) {
+  const Step::Kind kind = argv[i][1] == 'e' ? Step::Kind::execute : Step::Kind::require;
+  if (argv[i][2] != '\0') return {kind, argv[i] + 2};
+  const std::string option = argv[i];
+  if (i + 1 >= argc || argv[i + 1][0] == '-') throw UsageError("'" + option + "' needs argument");
+  return {kind, argv[++i]};
+}
+
+}  // namespace
+
+Arguments parse_arguments(int argc, const char* const* argv) {
+  Arguments a;
+  int i = 1;
+  for (; i < argc && argv[i][0] == '-'; ++i) {
+    const std::string option = argv[i];
+    if (option == "--") {
+      ++i;
+      break;
+    }
+    if (option == "-") {
+      a.script_is_stdin = true;
+      break;
+    }
+    if (read_long(option, a)) return a;
+    const bool alone = option.size() == 2;
+    switch (option[1]) {
+      case 'E': if (!alone) throw unknown(option); a.ignore_environment = true; break;
+      case 'W': if (!alone) throw unknown(option); a.warnings = true; break;
+      case 'i': if (!alone) throw unknown(option); a.interactive = a.version = true; break;
+      case 'v': if (!alone) throw unknown(option); a.version = true; break;
+      case 'e': a.has_code = true; [[fallthrough]];
+      case 'l': a.steps.push_back(read_step(argc, argv, i)); break;
+      default: throw unknown(option);
+    }
+  }
+  a.script = i < argc ? i : 0;
+  return a;
+}
+
+std::string usage() {
+  return "usage: tendril [options] [script [args]]\n"
+         "  -e code         run `code`\n"
+         "  -i              enter interactive mode after running `script`\n"
+         "  -l mod          require module `mod` into global `mod`\n"
+         "  -l name=mod     require module `mod` into global `name`\n"
+         "  -v              show the version\n"
+         "  -E              ignore environment variables\n"
+         "  -W              turn warnings on\n"
+         "  --              stop handling options\n"
+         "  -               stop handling options and run standard input\n"
+         "  -h, --help      show this text and leave\n"
+         "  --version       show the version and leave\n"
+         "  --annotations   print editor annotations of every function and leave\n"
+         "Without arguments: an interactive session, or the script on standard input when that is no terminal.\n"
+         "Exit codes: 0 done, 1 error in the script, 2 wrong usage, 130 interrupted.\n"
+         "Environment: TENDRIL_LUA folders searched for modules, TENDRIL_MEMORY limit of Lua's memory (8G), NO_COLOR.\n";
+}
+
+}  // namespace tendril::shell

@@ -1,0 +1,197 @@
+#include "statics/contact_solver.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace tendril {
+
+namespace {
+
+constexpr double soft = 0.1, hard = 0.01;            // overlap under the reference force, in radii
+constexpr double soft_tolerance = 2e-2;
+constexpr double working_tolerance = 1e-7;           // between updates
+constexpr int soft_iterations = 40, hard_iterations = 80, update_iterations = 60, descent_iterations = 300;
+
+std::string text(const char* format, double a, double b) {
+  char buffer[200];
+  std::snprintf(buffer, sizeof buffer, format, a, b);
+  return buffer;
+}
+
+/// Overlap whose force per length is `force`: the inverse of the law's slope.
+double overlap_under(const ContactLaw& law, double force) {
+  const ContactLaw::Value knee = law.at(law.knee);
+  if (force <= knee.slope) return std::pow(force / (2.5 * law.stiffness), 2.0 / 3.0);
+  return law.knee + (force - knee.slope) / knee.curvature;
+}
+
+}  // namespace
+
+ContactSolver::ContactSolver(RodSystem& system, const SolveOptions& options, const ContactOptions& contact)
+    : system_(&system), options_(options), contact_(contact), terms_(system, options.element), newton_(system, &terms_) {
+  const RodProblem& problem = system.problem();
+  radius_ = problem.rod.largest_radius();
+  for (const RodPart& part : problem.rod.parts) radius_ = std::min(radius_, part.section.radius());
+  double load = problem.rod.mass() * problem.gravity.norm();
+  for (const PointLoad& point : problem.loads) load += point.force.norm();
+  reference_ = std::max(load / system.length(), 50 * system.bending_scale() / radius_);
+}
+
+NewtonOutcome ContactSolver::stage(RodState& state, Start start, double tolerance, int most_iterations, bool descend,
+                                   const RunContext& context) {
+  terms_.set_exact(descend);
+  terms_.begin(state);
+  NewtonOptions options;
+  options.tolerance = tolerance;
+  options.max_iterations = std::min(most_iterations, options_.max_iterations - used_);
+  options.stable_only = options_.stable_only;
+  options.warm = start == Start::warm;
+  options.descend = descend;
+  const NewtonOutcome out = newton_.run(state, options, context);
+  used_ += out.iterations;
+  terms_.set_exact(false);
+  return out;
+}
+
+bool ContactSolver::over(const ContactOutcome& out) const {
+  return out.newton.status == Status::cancelled || out.newton.status == Status::timeout ||
+         used_ >= options_.max_iterations;
+}
+
+/// The hard law by Newton's method, else by descent from where it got, else by descent from the start.
+NewtonOutcome ContactSolver::settle(RodState& state, const RodState& start, ContactOutcome& out,
+                                    const RunContext& context) {
+  out.newton = stage(state, out.newton.status == Status::solved ? Start::warm : Start::cold, working_tolerance,
+                     hard_iterations, false, context);
+  for (int attempt = 0; attempt < 2 && out.newton.status != Status::solved && !over(out); ++attempt) {
+    ++out.fallbacks;
+    if (attempt == 1) state = start;
+    out.newton = stage(state, Start::cold, working_tolerance, descent_iterations, true, context);
+    if (out.newton.status == Status::solved || over(out)) break;
+    out.newton = stage(state, Start::warm, working_tolerance, hard_iterations, false, context);
+  }
+  return out.newton;
+}
+
+void ContactSolver::remove_overlap(RodState& state, ContactOutcome& out, const RunContext& context) {
+  const double enough = contact_.overlap * radius_;
+  while (out.newton.status == Status::solved && !over(out)) {
+    terms_.stand_at(state);
+    const bool points_free = terms_.set().deepest() <= enough;
+    if (points_free) {
+      if (out.refinements >= contact_.most_refinements || terms_.refine(state, contact_.overlap) == 0) break;
+      ++out.refinements;
+    } else {
+      if (out.updates >= contact_.most_updates + 2 * out.refinements) break;
+      terms_.set().update_shifts();
+      ++out.updates;
+    }
+    const RodState before = state;
+    out.newton = stage(state, Start::warm, working_tolerance, update_iterations, false, context);
+    if (out.newton.status == Status::stalled && !over(out)) {
+      ++out.fallbacks;
+      state = before;
+      out.newton = stage(state, Start::warm, working_tolerance, descent_iterations, true, context);
+    }
+  }
+}
+
+ContactOutcome ContactSolver::run(RodState& state, const Equilibrium* from, const RunContext& context) {
+  ContactOutcome out;
+  used_ = 0;
+  const RodState start = state;
+  ContactSet& set = terms_.set();
+  set.law = ContactLaw::for_overlap(reference_, radius_, hard);
+  terms_.stand_at(state);
+  const std::vector<int> crossings = terms_.guard().crossings();
+  if (!crossings.empty()) out.message = "the start crosses an obstacle at " + place_of(crossings.front());
+
+  if (from) {
+    take_forces_of(*from);
+    out.newton = stage(state, Start::warm, working_tolerance, hard_iterations, false, context);
+  } else {
+    set.law = ContactLaw::for_overlap(reference_, radius_, soft);
+    terms_.set_early_end(true);
+    out.newton = stage(state, Start::cold, soft_tolerance, soft_iterations, false, context);
+    terms_.set_early_end(false);
+    set.law = ContactLaw::for_overlap(reference_, radius_, hard);
+  }
+  if (!over(out) && !(from && out.newton.status == Status::solved)) settle(state, start, out, context);
+  remove_overlap(state, out, context);
+  if (out.newton.status == Status::solved && options_.tolerance < working_tolerance)
+    out.newton = stage(state, Start::warm, options_.tolerance, update_iterations, false, context);
+  out.newton.iterations = used_;
+  judge(state, out);
+  return out;
+}
+
+ContactOutcome ContactSolver::run_penalty(RodState& state, double stiffness, const RunContext& context) {
+  ContactOutcome out;
+  used_ = 0;
+  terms_.set().law = {stiffness, std::numeric_limits<double>::infinity()};
+  out.newton = stage(state, Start::cold, options_.tolerance, hard_iterations, false, context);
+  if (out.newton.status == Status::stalled) {
+    ++out.fallbacks;
+    out.newton = stage(state, Start::cold, options_.tolerance, descent_iterations, true, context);
+  }
+  out.newton.iterations = used_;
+  terms_.stand_at(state);
+  out.deepest = terms_.deepest_at(state).penetration;
+  return out;
+}
+
+/// Nothing that overlaps more than stated or crosses a surface is called solved.
+void ContactSolver::judge(const RodState& state, ContactOutcome& out) {
+  terms_.stand_at(state);
+  const ContactTerms::Deepest deepest = terms_.deepest_at(state);
+  out.deepest = std::max(0.0, deepest.penetration);
+  const std::vector<int> crossings = terms_.guard().crossings();
+  if (!crossings.empty()) {
+    out.message = (out.message.empty() ? "" : out.message + "; ") + "the rod crosses an obstacle at " + place_of(crossings.front());
+    if (out.newton.status == Status::solved) out.newton.status = Status::stalled;
+  } else if (out.deepest > largest_solved_overlap * radius_) {
+    out.message = (out.message.empty() ? "" : out.message + "; ") +
+                  text("the rod overlaps an obstacle by %.3g mm at s = %.4g m", 1e3 * out.deepest, deepest.point.s);
+    if (out.newton.status == Status::solved) out.newton.status = Status::stalled;
+  }
+}
+
+/// A warm start: the forces of the solution before become shifts at the nearest points.
+void ContactSolver::take_forces_of(const Equilibrium& from) {
+  ContactSet& set = terms_.set();
+  std::vector<double> shifts(set.size(), 0.0);
+  std::vector<double> force(set.size(), 0.0);
+  int at = 0;
+  for (const ContactForce& contact : from.contacts) {
+    while (at + 1 < set.size() && std::abs(set.points()[at + 1].s - contact.s) <= std::abs(set.points()[at].s - contact.s))
+      ++at;
+    force[at] += contact.force.norm();
+  }
+  for (int i = 0; i < set.size(); ++i)
+    if (force[i] > 0 && set.points()[i].weight > 0) shifts[i] = overlap_under(set.law, force[i] / set.points()[i].weight);
+  set.set_shifts(shifts);
+}
+
+std::string ContactSolver::place_of(int point) const {
+  const ContactSet& set = terms_.set();
+  return text("s = %.4g m", set.points()[point].s, 0);
+}
+
+void ContactSolver::describe(const RodState& state, Equilibrium& out) {
+  terms_.stand_at(state);
+  const ContactSet& set = terms_.set();
+  out.contacts.clear();
+  out.energy.contact = 0;
+  for (int i = 0; i < set.size(); ++i) {
+    const PointContact* c = set.at(i);
+    if (!c || c->gradient.isZero(0)) continue;
+    const ContactPoint& p = set.points()[i];
+    out.contacts.push_back({p.s, set.positions()[i], -c->gradient, c->distance - p.radius, c->obstacle});
+    // What the shift adds is bookkeeping of the method, not stored energy.
+    out.energy.contact += p.weight * set.law.at(p.radius - c->distance).energy;
+  }
+  out.deepest_penetration = std::max(0.0, terms_.deepest_at(state).penetration);
+}
+
+}  // namespace tendril

@@ -1,0 +1,72 @@
+// From a first guess among obstacles to an equilibrium that neither penetrates nor has passed through anything.
+//
+// Two stages of the contact law, soft then hard, each solved by Newton's method under the step guards; then the augmented
+// Lagrangian takes the remaining overlap away: shift_i <- max(0, shift_i + radius - distance), solved again, until the
+// deepest overlap is small. Where an edge or a bump pokes between two contact points a point is added there.
+// Not done: friction, self-contact, supports that stand inside an obstacle.
+#pragma once
+
+#include <string>
+
+#include "statics/contact_terms.h"
+
+namespace tendril {
+
+struct ContactOptions {
+  double overlap = 1e-3;      ///< deepest overlap that is left, in radii
+  int most_updates = 6;       ///< of the augmented Lagrangian
+  int most_refinements = 3;   ///< rounds of added points
+};
+
+/// An overlap beyond this, in radii, is never reported as solved.
+inline constexpr double largest_solved_overlap = 1e-2;
+
+struct ContactOutcome {
+  NewtonOutcome newton;       ///< of the last run; iterations over all
+  int fallbacks = 0;
+  int updates = 0;
+  int refinements = 0;
+  double deepest = 0;         ///< m, looked at more finely than the contact points lie
+  std::string message;        ///< empty, or what the user should know
+};
+
+class ContactSolver {
+ public:
+  /// The problem of `system` must have surroundings.
+  ContactSolver(RodSystem& system, const SolveOptions& options, const ContactOptions& contact = {});
+
+  /// Moves `state` to an equilibrium. `from`: a solution whose contact forces to start from; null: a cold start.
+  ContactOutcome run(RodState& state, const Equilibrium* from, const RunContext& context);
+
+  /// One Newton run on a given penalty law, without updates: for comparison with penalty models.
+  ContactOutcome run_penalty(RodState& state, double stiffness, const RunContext& context);
+
+  /// Fills contacts, deepest_penetration and energy.contact.
+  void describe(const RodState& state, Equilibrium& out);
+
+  ContactTerms& terms() { return terms_; }
+  Newton& newton() { return newton_; }
+
+ private:
+  enum class Start { cold, warm };
+  NewtonOutcome stage(RodState& state, Start start, double tolerance, int most_iterations, bool descend,
+                      const RunContext& context);
+  NewtonOutcome settle(RodState& state, const RodState& start, ContactOutcome& out, const RunContext& context);
+  void remove_overlap(RodState& state, ContactOutcome& out, const RunContext& context);
+  void judge(const RodState& state, ContactOutcome& out);
+  void take_forces_of(const Equilibrium& from);
+  bool over(const ContactOutcome& out) const;
+  std::string place_of(int point) const;
+
+  RodSystem* system_;
+  SolveOptions options_;
+  ContactOptions contact_;
+  ContactTerms terms_;
+  Newton newton_;
+  double radius_;      ///< smallest of the rod, m
+  double reference_;   ///< force per length that the stiffness is made for, N/m
+  int used_ = 0;       ///< factorisations so far
+  bool crossed_at_start_ = false;
+};
+
+}  // namespace tendril
