@@ -29,13 +29,16 @@ Linear from_oklab(double lightness, double a, double b) {
           -0.0041960863 * l - 0.7034186147 * m + 1.7076147010 * s};
 }
 
-/// The colour of a lightness, chroma and hue; the chroma is lowered until the colour can be shown.
+/// The colour of a lightness, chroma and hue; the chroma is lowered just until the colour can be shown.
 Rgb shown(double lightness, double chroma, double hue) {
-  Linear c = from_oklab(lightness, chroma * std::cos(hue), chroma * std::sin(hue));
-  for (int i = 0; i < 60 && !c.in_gamut(); ++i) {
-    chroma *= 0.95;
-    c = from_oklab(lightness, chroma * std::cos(hue), chroma * std::sin(hue));
+  const auto at = [&](double c) { return from_oklab(lightness, c * std::cos(hue), c * std::sin(hue)); };
+  double low = 0, high = chroma;
+  if (at(high).in_gamut()) low = high;
+  for (int i = 0; i < 40 && low < high; ++i) {
+    const double middle = 0.5 * (low + high);
+    (at(middle).in_gamut() ? low : high) = middle;
   }
+  const Linear c = at(low);
   return {to_srgb(c.r), to_srgb(c.g), to_srgb(c.b)};
 }
 

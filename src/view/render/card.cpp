@@ -34,9 +34,9 @@ void draw_card(Canvas& canvas, const Rect& cell, double scale, const PictureCard
   if (card.rows.empty()) return;
   const double space = cell.y + cell.height - 14 * scale - y;
   const double least = std::max(15 * scale, 10.0);
-  const double height = std::clamp(space / static_cast<double>(card.rows.size()), least, 31 * scale);
+  const double height = std::clamp(space / static_cast<double>(card.rows.size()), least, std::max(least, 36 * scale));
   const std::size_t fit = std::min(card.rows.size(), static_cast<std::size_t>(std::max(space / height + 1e-9, 1.0)));
-  const double size = std::min(0.52 * height, 16 * scale);
+  const double size = std::min(0.52 * height, 17 * scale);
   for (std::size_t i = 0; i < fit; ++i) {
     const double baseline = y + 0.5 * (height + canvas.capital_height(size));
     const PictureCard::Row& row = card.rows[i];

@@ -7,7 +7,6 @@ namespace tendril::render {
 namespace {
 
 constexpr double cell_pixels = 8;
-constexpr double slope = 1.1;         // depth won per distance from the tube: the half angle of the cone is 42 degrees
 constexpr std::size_t most_probes = 400;
 
 struct Probe {
@@ -65,7 +64,7 @@ Cutaway cutaway_of(const std::vector<PictureTube>& tubes, const ViewCamera& came
       double lowest = INFINITY;
       for (const Probe& probe : probes) {
         const double away = std::hypot(x - probe.x, y - probe.y) * camera.metres_per_pixel;
-        lowest = std::min(lowest, probe.z + 0.7 * probe.radius + slope * std::max(away - 2.5 * probe.radius, 0.0));
+        lowest = std::min(lowest, probe.z + 0.7 * probe.radius + cut_slope * std::max(away - 2.5 * probe.radius, 0.0));
       }
       cut.depth[static_cast<std::size_t>(row) * cut.columns + column] = static_cast<float>((nearest - lowest) / range);
     }

@@ -12,6 +12,9 @@
 
 namespace tendril::render {
 
+/// Depth won per distance from the tube: the cone's half angle is about 30 degrees.
+inline constexpr double cut_slope = 1.7;
+
 struct Cutaway {
   int columns = 1, rows = 1;
   std::vector<float> depth{0};  ///< row by row from the bottom; as on the depth buffer: 0 nearest, 1 farthest. 0: nothing is cut

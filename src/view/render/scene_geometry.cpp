@@ -11,7 +11,7 @@ namespace {
 constexpr std::size_t most_paints = 4096;
 
 float paint_of(const PictureSurface& surface, std::vector<Paint>& palette) {
-  const float strength = surface.style == SurfaceStyle::solid ? 1.0f : 0.80f;
+  const float strength = surface.style == SurfaceStyle::solid ? 1.0f : 0.66f;
   const Paint wanted{surface.colour, static_cast<float>(surface.share), strength};
   std::size_t i = 0;
   while (i < palette.size() && !(palette[i].colour == wanted.colour && palette[i].share == wanted.share && palette[i].strength == strength)) ++i;

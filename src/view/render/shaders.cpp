@@ -163,7 +163,7 @@ void main() {
     float near = max(1.0 - square / (radius * radius), 0.0);
     sum += near * max(dot(v, n) * inversesqrt(square + 0.01) - 0.12, 0.0);
   }
-  light = clamp(1.0 - 2.3 * sum / float(count), 0.0, 1.0);
+  light = clamp(1.0 - 3.4 * sum / float(count), 0.0, 1.0);
 }
 )";
 
@@ -188,8 +188,9 @@ void main() {
 )";
 
 const std::string_view compose_fragment = R"(
-uniform sampler2D base, base_depth, base_edges, veil, veil_depth, veil_edges, tube, tube_colour, tube_depth, light, palette;
+uniform sampler2D base, base_depth, base_edges, veil, veil_depth, veil_edges, tube, tube_colour, tube_depth, light, palette, cut;
 uniform float depth_pixels;
+uniform float fade;
 uniform vec3 paper;
 uniform vec3 ink;
 out vec4 result;
@@ -199,11 +200,11 @@ vec3 unfold(vec2 kept) {
   return vec3(n, sqrt(max(1.0 - dot(n, n), 0.0)));
 }
 
-// Soft clay under a lamp above the left shoulder, a weak fill from the right, a lift where the surface turns away.
+// Soft clay under a lamp above the left shoulder, with a weak fill from the right.
 float clay(vec3 n) {
   float key = 0.5 + 0.5 * dot(n, normalize(vec3(-0.45, 0.70, 0.62)));
   float fill = max(dot(n, normalize(vec3(0.80, -0.15, 0.50))), 0.0);
-  return 0.34 + 0.62 * pow(key, 1.6) + 0.11 * fill;
+  return 0.36 + 0.72 * pow(key, 1.6) + 0.10 * fill;
 }
 
 float gloss(vec3 n) { return pow(max(dot(n, normalize(vec3(-0.26, 0.42, 0.87))), 0.0), 38.0); }
@@ -217,6 +218,17 @@ float jump(sampler2D depth, ivec2 at, float here) {
   return smoothstep(7.0, 14.0, bend);
 }
 
+// What a surface of the surroundings looks like; `open`: the share of the sky it sees.
+vec3 surroundings(vec4 kept, float open, float edge, out float share) {
+  int paint = int(kept.b * 65535.0 + 0.5);
+  vec4 own = texelFetch(palette, ivec2(paint, 0), 0);
+  float strength = texelFetch(palette, ivec2(paint, 1), 0).r;
+  share = own.a;
+  vec3 lit = own.rgb * clay(unfold(kept.rg));
+  vec3 colour = mix(paper, lit, strength) * mix(vec3(1.0), vec3(0.45, 0.46, 0.50), 1.0 - open);
+  return mix(colour, ink, 0.55 * edge);
+}
+
 void main() {
   ivec2 at = ivec2(gl_FragCoord.xy);
   vec2 uv = gl_FragCoord.xy / vec2(textureSize(base_depth, 0));
@@ -224,26 +236,25 @@ void main() {
   float tube_at = texelFetch(tube_depth, at, 0).r;
   float veil_at = texelFetch(veil_depth, at, 0).r;
   float open = texture(light, uv).r;
-  float mask = 0.0;
+  float cut_at = texture(cut, uv).r;
+  float mask = 0.0, share;
 
   vec3 colour = paper;
+  float edge = 0.0;
   if (base_at < 1.0) {
-    vec4 kept = texelFetch(base, at, 0);
-    int paint = int(kept.b * 65535.0 + 0.5);
-    vec4 own = texelFetch(palette, ivec2(paint, 0), 0);
-    float strength = texelFetch(palette, ivec2(paint, 1), 0).r;
-    vec3 lit = own.rgb * clay(unfold(kept.rg)) * mix(1.0, open, 0.9);
-    colour = mix(paper, lit, strength);
-    colour = mix(colour, ink, 0.55 * texelFetch(base_edges, at, 0).r);
+    edge = texelFetch(base_edges, at, 0).r;
+    colour = surroundings(texelFetch(base, at, 0), open, edge, share);
   }
-  colour = mix(colour, ink, 0.60 * jump(base_depth, at, base_at));
+  // The cut's own border is no edge of the part.
+  float beyond_cut = cut_at > 0.0 ? smoothstep(2.0, 10.0, (base_at - cut_at) * depth_pixels) : 1.0;
+  colour = mix(colour, ink, 0.60 * jump(base_depth, at, base_at) * beyond_cut);
 
   if (tube_at < 1.0) {
     vec4 kept = texelFetch(tube, at, 0);
     vec3 own = texelFetch(tube_colour, at, 0).rgb;
     bool plain = kept.b > 0.75;
     vec3 n = unfold(kept.rg);
-    vec3 lit = plain ? own : own * (0.30 + 0.86 * clay(n)) * mix(1.0, open, 0.45) + 0.16 * gloss(n);
+    vec3 lit = plain ? own : own * (0.26 + 0.84 * clay(n)) * mix(1.0, open, 0.45) + 0.16 * gloss(n);
     if (tube_at <= base_at) {
       colour = lit;
       mask = 1.0;
@@ -255,13 +266,17 @@ void main() {
 
   if (veil_at < 1.0 && veil_at < min(base_at, tube_at)) {
     vec4 kept = texelFetch(veil, at, 0);
-    vec4 own = texelFetch(palette, ivec2(int(kept.b * 65535.0 + 0.5), 0), 0);
     vec3 n = unfold(kept.rg);
+    vec3 own = surroundings(kept, 1.0, 0.0, share);
+    // Close to the cut the part is still whole, and fades towards the tube.
+    float before_cut = (cut_at - veil_at) * depth_pixels;
+    float whole = cut_at > 0.0 ? 1.0 - smoothstep(0.0, fade, before_cut) : 0.0;
     float over_tube = mask > 0.75 ? 0.5 : 1.0;
-    float share = own.a * over_tube * (0.65 + 0.9 * pow(1.0 - n.z, 2.0));
-    colour = mix(colour, own.rgb * clay(n) * 0.92, clamp(share, 0.0, 0.85));
-    float line = max(0.30 * texelFetch(veil_edges, at, 0).r, 0.30 * jump(veil_depth, at, veil_at));
-    colour = mix(colour, ink, line * over_tube);
+    share = clamp(share * over_tube * (0.65 + 0.9 * pow(1.0 - n.z, 2.0)), 0.0, 0.85);
+    share = mix(share, over_tube, whole);
+    colour = mix(colour, own, share);
+    float line = max(texelFetch(veil_edges, at, 0).r, jump(veil_depth, at, veil_at) * smoothstep(4.0, 16.0, before_cut));
+    colour = mix(colour, ink, line * mix(0.28, 0.55, whole) * over_tube);
   }
   result = vec4(colour, mask);
 }

@@ -25,9 +25,10 @@ Rect draw_triad(Canvas& canvas, const Rect& cell, double scale, const ViewCamera
   static constexpr Rgb colours[] = {{0.76f, 0.20f, 0.17f}, {0.20f, 0.52f, 0.24f}, {0.16f, 0.34f, 0.74f}};
   const Point o{cell.x + 48 * scale, cell.y + cell.height - 46 * scale};
   const double length = 34 * scale, thick = std::max(2.2 * scale, 1.2);
-  // Farther axes first.
+  // Farther axes first, one seen end-on last.
+  const auto rank = [&](int axis) { return std::abs(camera.back[axis]) > 0.99 ? 2.0 : camera.back[axis]; };
   std::array<int, 3> order{0, 1, 2};
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return camera.back[a] < camera.back[b]; });
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return rank(a) < rank(b); });
   for (int axis : order) {
     const double dx = camera.right[axis] * length, dy = -camera.up[axis] * length, flat = std::hypot(dx, dy);
     const Rgb& colour = colours[axis];

@@ -37,7 +37,7 @@ void set_page(const Program& program, const SceneGeometry::Page& page) {
 }
 
 int occlusion_radius(const ViewCamera& camera) {
-  return std::clamp(static_cast<int>(0.055 * std::min(camera.width, camera.height)), 4, tile_margin - 4);
+  return std::clamp(static_cast<int>(0.06 * std::min(camera.width, camera.height)), 4, tile_margin - 4);
 }
 
 }  // namespace
@@ -165,11 +165,10 @@ ViewPainter::Span ViewPainter::depth_span(const ViewCamera& camera, const TubeMe
   return {high + spare, high - low + 2 * spare};
 }
 
-void ViewPainter::draw_surroundings(const SceneGeometry::Page& page, const Buffers& buffers) const {
-  const Texture cut(GL_R32F, page.cut.columns, page.cut.rows, GL_RED, GL_FLOAT, page.cut.depth.data(), GL_LINEAR);
+void ViewPainter::draw_surroundings(const SceneGeometry::Page& page, GLuint cut, const Buffers& buffers) const {
   const auto begin = [&](const Program& program, double nearer) {
     set_page(program, page);
-    program.texture("cut", 0, cut.name);
+    program.texture("cut", 0, cut);
     program.set("per_pixel", 1.0f / static_cast<float>(buffers.samples_x), 1.0f / static_cast<float>(buffers.samples_y));
     program.set("nearer", static_cast<float>(nearer));
   };
@@ -233,7 +232,7 @@ void ViewPainter::draw_tubes(const SceneGeometry::Page& page, const Tubes& marks
   glDisable(GL_CULL_FACE);
 }
 
-void ViewPainter::compose(const SceneGeometry::Page& page, const Buffers& b) const {
+void ViewPainter::compose(const SceneGeometry::Page& page, GLuint cut, const Buffers& b) const {
   glDisable(GL_DEPTH_TEST);
   const float pixels = static_cast<float>(page.range / page.camera.metres_per_pixel);
   const auto radius = static_cast<float>(occlusion_radius(page.camera));
@@ -266,10 +265,11 @@ void ViewPainter::compose(const SceneGeometry::Page& page, const Buffers& b) con
   const std::pair<const char*, GLuint> inputs[] = {
       {"base", b.base.name}, {"base_depth", b.base_depth.name}, {"base_edges", b.base_edges.name}, {"veil", b.veil.name},
       {"veil_depth", b.veil_depth.name}, {"veil_edges", b.veil_edges.name}, {"tube", b.tube.name}, {"tube_colour", b.tube_colour.name},
-      {"tube_depth", b.tube_depth.name}, {"light", b.light.name}, {"palette", palette_->name}};
+      {"tube_depth", b.tube_depth.name}, {"light", b.light.name}, {"palette", palette_->name}, {"cut", cut}};
   int unit = 0;
   for (const auto& [name, texture] : inputs) all.texture(name, unit++, texture);
   all.set("depth_pixels", pixels * fine);
+  all.set("fade", static_cast<float>(0.06 * fine * cut_slope * std::min(page.camera.width, page.camera.height)));
   all.set("paper", paper.r, paper.g, paper.b);
   all.set("ink", ink.r, ink.g, ink.b);
   glDrawArrays(GL_TRIANGLES, 0, 3);
@@ -278,9 +278,10 @@ void ViewPainter::compose(const SceneGeometry::Page& page, const Buffers& b) con
 void ViewPainter::paint_tile(const ViewCamera& camera, const Span& span, const Tubes& marks, const Buffers& buffers) const {
   const Cutaway cut = cutaway_of(picture_.tubes, camera, span.nearest, span.range);
   const SceneGeometry::Page page{camera, origin_, span.nearest, span.range, cut};
-  draw_surroundings(page, buffers);
+  const Texture cut_depth(GL_R32F, cut.columns, cut.rows, GL_RED, GL_FLOAT, cut.depth.data(), GL_LINEAR);
+  draw_surroundings(page, cut_depth.name, buffers);
   draw_tubes(page, marks, buffers);
-  compose(page, buffers);
+  compose(page, cut_depth.name, buffers);
 }
 
 namespace {

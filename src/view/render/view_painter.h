@@ -34,9 +34,9 @@ class ViewPainter {
 
   Span depth_span(const ViewCamera& camera, const TubeMesh& marks) const;
   void paint_tile(const ViewCamera& camera, const Span& span, const Tubes& marks, const Buffers& buffers) const;
-  void draw_surroundings(const SceneGeometry::Page& page, const Buffers& buffers) const;
+  void draw_surroundings(const SceneGeometry::Page& page, GLuint cut, const Buffers& buffers) const;
   void draw_tubes(const SceneGeometry::Page& page, const Tubes& marks, const Buffers& buffers) const;
-  void compose(const SceneGeometry::Page& page, const Buffers& buffers) const;
+  void compose(const SceneGeometry::Page& page, GLuint cut, const Buffers& buffers) const;
 
   const Picture& picture_;
   const SceneGeometry& surroundings_;
