@@ -1,0 +1,228 @@
+#include "view/chart_script.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "view/histogram.h"
+
+namespace tendril {
+namespace {
+
+// Okabe and Ito's eight colours for every kind of colour vision, without yellow (pale on white), then darker relatives.
+constexpr std::array<const char*, 12> palette{"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00",
+                                              "#4D4D4D", "#004466", "#803800", "#005C44", "#7A4864", "#8C6000"};
+constexpr std::size_t most_marked = 200;
+
+std::string number(double value) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.17g", value);
+  return text;
+}
+
+/// What is left of the data, and what it spans.
+struct Drawable {
+  struct Series {
+    std::string name;
+    std::vector<std::array<double, 2>> points;
+  };
+  std::vector<Series> series;
+  std::size_t dropped = 0;
+};
+
+Drawable drawable_of(const Chart& chart) {
+  Drawable result;
+  for (const ChartSeries& series : chart.series) {
+    Drawable::Series kept{series.name, {}};
+    const bool indexed = chart.kind == ChartKind::bars || chart.kind == ChartKind::histogram;
+    for (std::size_t i = 0; i < series.y.size(); ++i) {
+      const double x = indexed ? static_cast<double>(i) : series.x[i], y = series.y[i];
+      const bool log_x = chart.log_x && !indexed, log_y = chart.log_y && chart.kind != ChartKind::histogram;
+      const bool log_sample = chart.log_x && chart.kind == ChartKind::histogram;
+      if (!std::isfinite(x) || !std::isfinite(y) || (log_x && x <= 0) || (log_y && y <= 0) || (log_sample && y <= 0)) ++result.dropped;
+      else kept.points.push_back({x, y});
+    }
+    result.series.push_back(std::move(kept));
+  }
+  return result;
+}
+
+void add_look(const Chart& chart, const std::string& output, bool svg, std::string& text) {
+  const double scale = std::min(chart.width / 1200.0, chart.height / 800.0);
+  const int font = std::max(6, static_cast<int>(std::lround(18 * scale)));
+  const std::string size = std::to_string(chart.width) + "," + std::to_string(chart.height);
+  text += svg ? "set terminal svg noenhanced size " + size + " background rgb '#ffffff' font 'DejaVu Sans," + std::to_string(font) + "'\n"
+              : "set terminal pngcairo noenhanced size " + size + " background rgb '#ffffff' font 'DejaVu Sans," + std::to_string(std::max(5, font * 3 / 4)) + "'\n";
+  text += "set output " + gnuplot_quoted(output) + "\n";
+  text += "set encoding utf8\nset border 3 lc rgb '#404040' lw 1.2\nset tics nomirror out scale 0.6 textcolor rgb '#303030'\n"
+          "set grid back lc rgb '#dcdcdc' lw 0.8 lt 1\nset rmargin 3\nset key top right reverse Left samplen 2.2 spacing 1.25 textcolor rgb '#303030'\n";
+  if (!chart.title.empty()) text += "set title " + gnuplot_quoted(chart.title) + " font 'DejaVu Sans:Bold," + std::to_string(font) + "' textcolor rgb '#202020'\n";
+  text += "set xlabel " + gnuplot_quoted(chart.x_label) + "\nset ylabel " + gnuplot_quoted(chart.y_label) + "\n";
+  if (chart.log_x && chart.kind != ChartKind::bars) text += "set logscale x 10\n";
+  if (chart.log_y) text += "set logscale y 10\n";
+  if (chart.log_x || chart.log_y) text += "set grid mxtics mytics lc rgb '#dcdcdc' lw 0.8 lt 1, lc rgb '#eeeeee' lw 0.6 lt 1\n";
+}
+
+/// One axis' range with a little to spare; on a log axis at least most of a decade.
+std::string range_text(const char* axis, double low, double high, bool log, bool from_zero) {
+  if (log) {
+    double a = std::log10(low), b = std::log10(high);
+    const double spare = std::max(0.06 * (b - a), 0.15);
+    a = std::max(a - spare, -307.0), b = std::min(b + spare, 307.0);
+    return std::string("set ") + axis + "range [" + number(std::pow(10, a)) + ":" + number(std::pow(10, b)) + "]\n";
+  }
+  const double size = std::max(std::abs(low), std::abs(high));
+  double spare = 0.05 * high - 0.05 * low;
+  if (!(spare > 1e-12 * size)) spare = size > 0 ? 0.1 * size : 1;
+  const double limit = 1.6e308;
+  double from = from_zero && low >= 0 ? 0 : std::max(low - spare, -limit), to = from_zero && high <= 0 ? 0 : std::min(high + spare, limit);
+  if (!(from < to)) from -= 1, to += 1;
+  return std::string("set ") + axis + "range [" + number(from) + ":" + number(to) + "]\n";
+}
+
+struct Span {
+  double low = INFINITY, high = -INFINITY;
+  void take(double v) { low = std::min(low, v), high = std::max(high, v); }
+};
+
+void add_references(const Chart& chart, std::string& text) {
+  int tag = 1;
+  for (const ChartReference& line : chart.references) {
+    const bool level = line.across == ChartReference::Across::horizontal;
+    if (!std::isfinite(line.at) || (line.at <= 0 && (level ? chart.log_y : chart.log_x))) continue;
+    const std::string at = number(line.at);
+    const std::string from = level ? "graph 0, first " + at : "first " + at + ", graph 0";
+    const std::string to = level ? "graph 1, first " + at : "first " + at + ", graph 1";
+    text += "set arrow " + std::to_string(tag) + " from " + from + " to " + to + " nohead front lw 1.6 dt 2 lc rgb '#a02020'\n";
+    if (!line.label.empty())
+      text += "set label " + std::to_string(tag) + " " + gnuplot_quoted(line.label) + " at " + (level ? "graph 0.012, first " + at : "first " + at + ", graph 0.97") +
+              (level ? " left offset 0,0.55" : " left offset 0.6,0") + " front textcolor rgb '#a02020'\n";
+    ++tag;
+  }
+}
+
+void add_plot(const std::vector<std::string>& parts, std::string& text) {
+  text += "plot ";
+  for (std::size_t i = 0; i < parts.size(); ++i) text += (i ? ", \\\n  " : "") + parts[i];
+  text += "\n";
+}
+
+std::string title_of(const std::string& name) { return name.empty() ? "notitle" : "title " + gnuplot_quoted(name); }
+
+void add_points(const Chart& chart, const Drawable& data, std::string& text) {
+  Span x, y;
+  std::vector<std::string> parts;
+  for (std::size_t i = 0; i < data.series.size(); ++i) {
+    const Drawable::Series& series = data.series[i];
+    if (series.points.empty()) continue;
+    const std::string block = "$data" + std::to_string(i), colour = palette[i % palette.size()];
+    text += block + " << EOD\n";
+    for (const auto& point : series.points) {
+      text += number(point[0]) + " " + number(point[1]) + "\n";
+      x.take(point[0]), y.take(point[1]);
+    }
+    text += "EOD\n";
+    const bool line = chart.kind == ChartKind::lines, marked = !line || (chart.markers && series.points.size() <= most_marked);
+    const std::string look = line ? (marked ? "linespoints lw 2.2 pt 7 ps 0.9" : "lines lw 2.2") : "points pt 7 ps 0.75";
+    parts.push_back(block + " using 1:2 with " + look + " lc rgb '" + colour + "' " + title_of(series.name));
+  }
+  for (const ChartReference& line : chart.references) {
+    const bool level = line.across == ChartReference::Across::horizontal, log = level ? chart.log_y : chart.log_x;
+    if (std::isfinite(line.at) && (!log || line.at > 0)) (level ? y : x).take(line.at);
+  }
+  text += range_text("x", x.low, x.high, chart.log_x, false) + range_text("y", y.low, y.high, chart.log_y, false);
+  add_references(chart, text);
+  add_plot(parts, text);
+}
+
+void add_bars(const Chart& chart, const Drawable& data, std::string& text) {
+  Span y;
+  std::size_t most = 0;
+  std::vector<std::string> parts;
+  const double width = 0.8 / static_cast<double>(data.series.size());
+  for (std::size_t i = 0; i < data.series.size(); ++i) {
+    const Drawable::Series& series = data.series[i];
+    most = std::max(most, chart.series[i].y.size());
+    if (series.points.empty()) continue;
+    const std::string block = "$data" + std::to_string(i);
+    text += block + " << EOD\n";
+    for (const auto& point : series.points) {
+      text += number(point[0] + 1 - 0.4 + (static_cast<double>(i) + 0.5) * width) + " " + number(point[1]) + " " + number(0.92 * width) + "\n";
+      y.take(point[1]);
+    }
+    text += "EOD\n";
+    parts.push_back(block + " using 1:2:3 with boxes fs solid 0.9 noborder lc rgb '" + palette[i % palette.size()] + "' " + title_of(series.name));
+  }
+  text += "set grid noxtics nomxtics\nset xtics scale 0 (";
+  for (std::size_t i = 0; i < most; ++i)
+    text += std::string(i ? ", " : "") + gnuplot_quoted(i < chart.categories.size() ? chart.categories[i] : std::to_string(i + 1)) + " " + std::to_string(i + 1);
+  text += ")\nset xrange [0.4:" + number(static_cast<double>(most) + 0.6) + "]\n";
+  for (const ChartReference& line : chart.references)
+    if (line.across == ChartReference::Across::horizontal && std::isfinite(line.at) && (!chart.log_y || line.at > 0)) y.take(line.at);
+  text += range_text("y", y.low, y.high, chart.log_y, true);
+  add_references(chart, text);
+  add_plot(parts, text);
+}
+
+void add_histogram(const Chart& chart, const Drawable& data, std::string& text) {
+  Span x;
+  std::size_t tallest = 1;
+  std::vector<std::string> parts;
+  const bool many = data.series.size() > 1;
+  for (std::size_t i = 0; i < data.series.size(); ++i) {
+    std::vector<double> samples;
+    for (const auto& point : data.series[i].points) samples.push_back(chart.log_x ? std::log10(point[1]) : point[1]);
+    if (samples.empty()) continue;
+    const Histogram bins = histogram_of(std::move(samples), chart.bins);
+    const std::string block = "$data" + std::to_string(i);
+    text += block + " << EOD\n";
+    for (std::size_t k = 0; k < bins.counts.size(); ++k) {
+      const auto edge = [&](std::size_t e) { return chart.log_x ? std::pow(10, bins.edges[e]) : bins.edges[e]; };
+      // A log axis cannot show an empty bin: it is left out there.
+      if (chart.log_y && bins.counts[k] == 0) continue;
+      text += number(0.5 * edge(k) + 0.5 * edge(k + 1)) + " " + std::to_string(bins.counts[k]) + " " + number(edge(k)) + " " + number(edge(k + 1)) + "\n";
+      x.take(edge(k)), x.take(edge(k + 1));
+      tallest = std::max(tallest, bins.counts[k]);
+    }
+    text += "EOD\n";
+    const std::string colour = palette[i % palette.size()];
+    parts.push_back(block + " using 1:2:3:4:(" + (chart.log_y ? "0.5" : "0") + "):2 with boxxyerror fs " + (many ? "transparent solid 0.45" : "solid 0.85") +
+                    " border rgb '#ffffff' lc rgb '" + colour + "' " + title_of(data.series[i].name));
+  }
+  for (const ChartReference& line : chart.references)
+    if (line.across == ChartReference::Across::vertical && std::isfinite(line.at) && (!chart.log_x || line.at > 0)) x.take(line.at);
+  text += range_text("x", x.low, x.high, chart.log_x, false);
+  text += "set yrange [" + std::string(chart.log_y ? "0.5" : "0") + ":" + number(1.08 * static_cast<double>(tallest)) + "]\n";
+  add_references(chart, text);
+  add_plot(parts, text);
+}
+
+}  // namespace
+
+std::string gnuplot_quoted(const std::string& text) {
+  std::string quoted = "\"";
+  for (char c : text) {
+    const unsigned char byte = static_cast<unsigned char>(c);
+    if (byte < 0x20 || byte == 0x7f) quoted += ' ';
+    else if (c == '"' || c == '\\') quoted += std::string("\\") + c;
+    else if (c == '`') quoted += "\\140";  // a backquote in double quotes would run a command
+    else quoted += c;
+  }
+  return quoted + "\"";
+}
+
+ChartScript chart_script(const Chart& chart, const std::string& output, bool svg) {
+  const Drawable data = drawable_of(chart);
+  ChartScript script;
+  script.dropped = data.dropped;
+  for (const Drawable::Series& series : data.series) script.drawn += series.points.size();
+  add_look(chart, output, svg, script.text);
+  if (chart.kind == ChartKind::bars) add_bars(chart, data, script.text);
+  else if (chart.kind == ChartKind::histogram) add_histogram(chart, data, script.text);
+  else add_points(chart, data, script.text);
+  script.text += "unset output\n";
+  return script;
+}
+
+}  // namespace tendril
