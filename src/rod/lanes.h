@@ -24,19 +24,6 @@ inline T filled(double value) {
   return T{} + value;
 }
 
-/// Applies a scalar function to each lane.
-template <class T, class F>
-inline T each_lane(const T& value, F&& f) {
-  T result{};
-  for (int i = 0; i < lanes_of<T>; ++i) lane(result, i) = f(lane(value, i));
-  return result;
-}
-
-template <class T>
-inline T square_root(const T& value) {
-  return each_lane(value, [](double x) { return std::sqrt(x); });
-}
-
 template <class T>
 inline double largest_lane(const T& value) {
   double largest = lane(value, 0);

@@ -59,7 +59,7 @@ inline T arctangent_over_x(const T& xx) {
 /// phi (rad, |phi| <= pi) with exp([phi]) = the rotation of the unit quaternion, and the coefficients at |phi|^2.
 template <class T>
 inline V3<T> rotation_log(Q4<T> p, JacobianCoefficients<T>& coefficients) {
-  const T sign = each_lane(p.w, [](double w) { return w < 0 ? -1.0 : 1.0; });
+  const T sign = p.w < 0 ? filled<T>(-1) : filled<T>(1);
   p.w *= sign;
   p.v = sign * p.v;
   const T sine_squared = dot(p.v, p.v);

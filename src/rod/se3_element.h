@@ -90,43 +90,42 @@ struct M6 {
   }
 };
 
-/// Cholesky factor of a symmetric positive matrix, in place: lower triangle, the diagonal inverted.
+/// L D L^T of a symmetric positive matrix, in place: unit lower triangle, the diagonal holds 1/D.
 template <class T>
 inline void factor(M6<T>& c) {
 #pragma GCC unroll 6
   for (int j = 0; j < 6; ++j) {
-    T pivot = c.e[j][j];
-#pragma GCC unroll 6
-    for (int k = 0; k < j; ++k) pivot -= c.e[j][k] * c.e[j][k];
-    const T inverse = filled<T>(1) / square_root(pivot);
-    c.e[j][j] = inverse;
+    c.e[j][j] = filled<T>(1) / c.e[j][j];
+    T column[6];
 #pragma GCC unroll 6
     for (int i = j + 1; i < 6; ++i) {
-      T sum = c.e[i][j];
-#pragma GCC unroll 6
-      for (int k = 0; k < j; ++k) sum -= c.e[i][k] * c.e[j][k];
-      c.e[i][j] = sum * inverse;
+      column[i] = c.e[i][j];
+      c.e[i][j] *= c.e[j][j];
     }
+#pragma GCC unroll 6
+    for (int i = j + 1; i < 6; ++i)
+#pragma GCC unroll 6
+      for (int k = j + 1; k <= i; ++k) c.e[i][k] -= c.e[i][j] * column[k];
   }
 }
 
+/// L x = given.
 template <class T>
 inline void solve_lower(const M6<T>& l, T (&x)[6]) {
 #pragma GCC unroll 6
-  for (int i = 0; i < 6; ++i) {
+  for (int i = 1; i < 6; ++i)
 #pragma GCC unroll 6
     for (int k = 0; k < i; ++k) x[i] -= l.e[i][k] * x[k];
-    x[i] *= l.e[i][i];
-  }
 }
 
+/// D L^T x = given.
 template <class T>
 inline void solve_upper(const M6<T>& l, T (&x)[6]) {
 #pragma GCC unroll 6
   for (int i = 5; i >= 0; --i) {
+    x[i] *= l.e[i][i];
 #pragma GCC unroll 6
     for (int k = i + 1; k < 6; ++k) x[i] -= l.e[k][i] * x[k];
-    x[i] *= l.e[i][i];
   }
 }
 
@@ -218,6 +217,7 @@ inline void se3_curvature_on_xi(const Se3Segment<T>& s, const detail::Se3Strain<
   z.set(1, 0, -s.q * (cp * kpn));
   z.set(1, 1, identity - s.q * (cp * kpm - um));
   const T per_length = filled<T>(1) / s.h;
+  M6<T> scaled;  // D^-1 L^-1 (I - J)
 #pragma GCC unroll 6
   for (int j = 0; j < 6; ++j) {
     T column[6];
@@ -225,7 +225,10 @@ inline void se3_curvature_on_xi(const Se3Segment<T>& s, const detail::Se3Strain<
     for (int i = 0; i < 6; ++i) column[i] = z.e[i][j];
     solve_lower(x.l, column);
 #pragma GCC unroll 6
-    for (int i = 0; i < 6; ++i) z.e[i][j] = column[i];
+    for (int i = 0; i < 6; ++i) {
+      z.e[i][j] = column[i];
+      scaled.e[i][j] = x.l.e[i][i] * column[i];
+    }
     solve_upper(x.l, column);
 #pragma GCC unroll 6
     for (int i = 0; i < 6; ++i) rate.p[i / 3][j / 3].e[3 * (i % 3) + j % 3] = per_length * column[i];
@@ -238,9 +241,9 @@ inline void se3_curvature_on_xi(const Se3Segment<T>& s, const detail::Se3Strain<
   for (int i = 0; i < 6; ++i)
 #pragma GCC unroll 6
     for (int j = i; j < 6; ++j) {
-      T sum = z.e[0][i] * z.e[0][j];
+      T sum = z.e[0][i] * scaled.e[0][j];
 #pragma GCC unroll 5
-      for (int k = 1; k < 6; ++k) sum += z.e[k][i] * z.e[k][j];
+      for (int k = 1; k < 6; ++k) sum += z.e[k][i] * scaled.e[k][j];
       hessian.e[i][j] += per_length * sum;
       hessian.e[j][i] = hessian.e[i][j];
     }

@@ -24,14 +24,21 @@ void log_of(const Frame& relative, Vec3& v, Vec3& phi) {
   phi = {p.x, p.y, p.z};
 }
 
-/// Adds (or sets) a 3x3 block of one lane to a column-major 6x6 matrix.
-template <int row, int column, bool transpose = false>
-inline void add(double* to, const M3<Pack>& m, int i, double sign = 1) {
+/// Sets or adds a 3x3 block of one lane in a column-major 6x6 matrix.
+enum class Put { set, set_minus, add, add_minus };
+template <int row, int column, Put put, bool transpose = false>
+inline void block(double* to, const M3<Pack>& m, int i) {
 #pragma GCC unroll 3
   for (int r = 0; r < 3; ++r)
 #pragma GCC unroll 3
-    for (int c = 0; c < 3; ++c)
-      to[row + r + 6 * (column + c)] += sign * lane(transpose ? m(c, r) : m(r, c), i);
+    for (int c = 0; c < 3; ++c) {
+      double& entry = to[row + r + 6 * (column + c)];
+      const double value = lane(transpose ? m(c, r) : m(r, c), i);
+      if constexpr (put == Put::set) entry = value;
+      if constexpr (put == Put::set_minus) entry = -value;
+      if constexpr (put == Put::add) entry += value;
+      if constexpr (put == Put::add_minus) entry -= value;
+    }
 }
 
 }  // namespace
@@ -137,10 +144,9 @@ Se3Ends<Pack> Se3System::ends(const RodState& state, int pack) const {
 }
 
 double Se3System::assemble_elements(const RodState& state, Stress stress, BlockSystem& system) {
-  for (int i = 0; i < nodes_; ++i) {
-    system.gradient[i].setZero();
-    system.diagonal[i].setZero();
-  }
+  // Each segment sets the blocks of its far end and adds to those of its near end; only the first is cleared.
+  system.gradient[0].setZero();
+  system.diagonal[0].setZero();
   const Wrench<Pack> nothing{};
   double energy = 0;
   for (int p = 0; p < packs(); ++p) {
@@ -156,25 +162,24 @@ double Se3System::assemble_elements(const RodState& state, Stress stress, BlockS
       energy += lane(g.energy, l);
       const Vec3 f = get(g.force, l);
       system.gradient[a].head<3>() -= f;
-      system.gradient[b].head<3>() += f;
       system.gradient[a].tail<3>() += get(g.theta_a, l);
-      system.gradient[b].tail<3>() += get(g.theta_b, l);
+      system.gradient[b].head<3>() = f;
+      system.gradient[b].tail<3>() = get(g.theta_b, l);
       double* da = system.diagonal[a].data();
       double* db = system.diagonal[b].data();
       double* u = system.upper[a].data();
-      system.upper[a].setZero();
-      add<0, 0>(da, h.dd, l);
-      add<0, 3>(da, h.da, l, -1);
-      add<3, 0, true>(da, h.da, l, -1);
-      add<3, 3>(da, h.aa, l);
-      add<0, 0>(db, h.dd, l);
-      add<0, 3>(db, h.db, l);
-      add<3, 0, true>(db, h.db, l);
-      add<3, 3>(db, h.bb, l);
-      add<0, 0>(u, h.dd, l, -1);
-      add<0, 3>(u, h.db, l, -1);
-      add<3, 0, true>(u, h.da, l);
-      add<3, 3>(u, h.ab, l);
+      block<0, 0, Put::add>(da, h.dd, l);
+      block<0, 3, Put::add_minus>(da, h.da, l);
+      block<3, 0, Put::add_minus, true>(da, h.da, l);
+      block<3, 3, Put::add>(da, h.aa, l);
+      block<0, 0, Put::set>(db, h.dd, l);
+      block<0, 3, Put::set>(db, h.db, l);
+      block<3, 0, Put::set, true>(db, h.db, l);
+      block<3, 3, Put::set>(db, h.bb, l);
+      block<0, 0, Put::set_minus>(u, h.dd, l);
+      block<0, 3, Put::set_minus>(u, h.db, l);
+      block<3, 0, Put::set, true>(u, h.da, l);
+      block<3, 3, Put::set>(u, h.ab, l);
     }
   }
   return energy;
