@@ -12,6 +12,7 @@ ContactSet::ContactSet(const ContactField& field, std::vector<ContactPoint> poin
       x_(points_.size(), Vec3::Zero()),
       known_(points_.size()),
       shift_(points_.size(), 0.0),
+      grouped_(points_.size(), 0),
       excluded_(points_.size(), 0),
       was_active_(points_.size(), 0),
       active_(points_.size(), -1),
@@ -110,6 +111,22 @@ void ContactSet::update_shifts() {
     // Out of reach means distance >= radius + shift, for which the rule gives zero.
     const PointContact* c = at(i);
     shift_[i] = c ? std::max(0.0, reach(i) - c->distance) : 0.0;
+  }
+  share_shifts();
+}
+
+void ContactSet::set_grouped(const std::vector<char>& grouped) {
+  grouped_ = grouped;
+  share_shifts();
+}
+
+void ContactSet::share_shifts() {
+  for (int i = 0; i < size();) {
+    int end = i;
+    double largest = 0;
+    for (; end < size() && grouped_[end]; ++end) largest = std::max(largest, shift_[end]);
+    for (int k = i; k < end; ++k) shift_[k] = largest;
+    i = std::max(end, i + 1);
   }
 }
 

@@ -47,11 +47,16 @@ class ContactSet {
   double distance_bound(int i, const Vec3& x) const { return known_[i].distance - (x - known_[i].at).norm(); }
 
   /// Augmented Lagrangian: shift <- max(0, shift + radius - distance) at the last positions. The force stays, the
-  /// penetration goes. Points that are not `free` keep theirs.
+  /// penetration goes. Points of one group share the largest shift among them.
   void update_shifts();
   void clear_shifts();
   const std::vector<double>& shifts() const { return shift_; }
   void set_shifts(const std::vector<double>& shifts) { shift_ = shifts; }
+
+  /// Runs of neighbouring points whose mark is set form groups with one shift. An edge slides freely along a group, but
+  /// is caught between points that each keep a shift of their own.
+  void set_grouped(const std::vector<char>& grouped);
+  const std::vector<char>& grouped() const { return grouped_; }
 
   /// Points that take no part (held by a support): no energy, no penetration.
   void exclude(int i) { excluded_[i] = true; }
@@ -70,6 +75,7 @@ class ContactSet {
   };
   double reach(int i) const { return points_[i].radius + shift_[i]; }
   bool out_of_reach(int i, const Vec3& x);
+  void share_shifts();
 
   const ContactField* field_;
   std::vector<ContactPoint> points_;
@@ -77,6 +83,7 @@ class ContactSet {
   std::vector<Vec3> x_;
   std::vector<Known> known_;
   std::vector<double> shift_;
+  std::vector<char> grouped_;
   std::vector<char> excluded_;
   std::vector<char> was_active_;
   std::vector<int> active_;             ///< index into contacts_, -1: out of reach

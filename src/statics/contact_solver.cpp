@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "statics/contact_start.h"
+
 namespace tendril {
 
 namespace {
@@ -80,7 +82,7 @@ void ContactSolver::remove_overlap(RodState& state, ContactOutcome& out, const R
     terms_.stand_at(state);
     const bool points_free = terms_.set().deepest() <= enough;
     if (points_free) {
-      if (out.refinements >= contact_.most_refinements || terms_.refine(state, contact_.overlap) == 0) break;
+      if (out.refinements >= contact_.most_refinements || terms_.refine(state, 0.9 * largest_solved_overlap) == 0) break;
       ++out.refinements;
     } else {
       if (out.updates >= contact_.most_updates + 2 * out.refinements) break;
@@ -96,6 +98,8 @@ void ContactSolver::remove_overlap(RodState& state, ContactOutcome& out, const R
     }
   }
 }
+
+RodState ContactSolver::clear_start() { return tendril::clear_start(*system_, terms_).state; }
 
 ContactOutcome ContactSolver::run(RodState& state, const Equilibrium* from, const RunContext& context) {
   ContactOutcome out;
@@ -159,6 +163,9 @@ void ContactSolver::judge(const RodState& state, ContactOutcome& out) {
 
 /// A warm start: the forces of the solution before become shifts at the nearest points.
 void ContactSolver::take_forces_of(const Equilibrium& from) {
+  std::vector<double> places;
+  for (const ContactForce& contact : from.contacts) places.push_back(contact.s);
+  terms_.refine_around(places);
   ContactSet& set = terms_.set();
   std::vector<double> shifts(set.size(), 0.0);
   std::vector<double> force(set.size(), 0.0);
@@ -171,11 +178,21 @@ void ContactSolver::take_forces_of(const Equilibrium& from) {
   for (int i = 0; i < set.size(); ++i)
     if (force[i] > 0 && set.points()[i].weight > 0) shifts[i] = overlap_under(set.law, force[i] / set.points()[i].weight);
   set.set_shifts(shifts);
+  set.set_grouped(std::vector<char>(set.grouped()));
 }
 
 std::string ContactSolver::place_of(int point) const {
   const ContactSet& set = terms_.set();
   return text("s = %.4g m", set.points()[point].s, 0);
+}
+
+void ContactSolver::add_gradient(const RodState& state, std::vector<Vec6>& gradient) {
+  scratch_.resize(system_->nodes());
+  for (Vec6& g : scratch_.gradient) g.setZero();
+  terms_.set_exact(true);
+  terms_.assemble(state, Stress::actual, scratch_);
+  terms_.set_exact(false);
+  for (int i = 0; i < system_->nodes(); ++i) gradient[i] += scratch_.gradient[i];
 }
 
 void ContactSolver::describe(const RodState& state, Equilibrium& out) {

@@ -35,11 +35,17 @@ class ContactSolver {
   /// The problem of `system` must have surroundings.
   ContactSolver(RodSystem& system, const SolveOptions& options, const ContactOptions& contact = {});
 
+  /// Where a cold start begins: the first guess, changed where it would cross the surroundings (contact_start.h).
+  RodState clear_start();
+
   /// Moves `state` to an equilibrium. `from`: a solution whose contact forces to start from; null: a cold start.
   ContactOutcome run(RodState& state, const Equilibrium* from, const RunContext& context);
 
   /// One Newton run on a given penalty law, without updates: for comparison with penalty models.
   ContactOutcome run_penalty(RodState& state, double stiffness, const RunContext& context);
+
+  /// Adds the contact forces' part of the gradient to that of the rod.
+  void add_gradient(const RodState& state, std::vector<Vec6>& gradient);
 
   /// Fills contacts, deepest_penetration and energy.contact.
   void describe(const RodState& state, Equilibrium& out);
@@ -66,7 +72,7 @@ class ContactSolver {
   double radius_;      ///< smallest of the rod, m
   double reference_;   ///< force per length that the stiffness is made for, N/m
   int used_ = 0;       ///< factorisations so far
-  bool crossed_at_start_ = false;
+  BlockSystem scratch_;
 };
 
 }  // namespace tendril

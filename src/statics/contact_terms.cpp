@@ -10,6 +10,7 @@ namespace {
 constexpr int most_stiffenings = 4;     // springs against blockades within one Newton step
 constexpr double nearly_through = 0.35; // radii
 constexpr double cut = 0.7;             // a guarded share below this counts towards the early end
+constexpr int refinement = 4;           // parts of an interval that is refined
 constexpr int finer = 4;                // looks between two contact points when the overlap is judged
 
 VertexShape shape_of(const RodState& state) { return {state.r, state.q}; }
@@ -161,27 +162,65 @@ ContactTerms::Deepest ContactTerms::deepest_at(const RodState& state) const {
 
 int ContactTerms::refine(const RodState& state, double most) {
   const VertexShape shape = shape_of(state);
+  std::vector<int> intervals;
+  for (int i = 0; i + 1 < set_->size(); ++i)
+    if (!set_->excluded(i) && !set_->excluded(i + 1) &&
+        deepest_between(i, shape).penetration > most * set_->points()[i].radius)
+      intervals.push_back(i);
+  const int added = refine_intervals(intervals);
+  if (added > 0) stand_at(state);
+  return added;
+}
+
+int ContactTerms::refine_around(const std::vector<double>& arc_lengths) {
+  std::vector<int> intervals;
+  const std::vector<ContactPoint>& points = set_->points();
+  const double length = points.back().s;
+  for (double s : arc_lengths) {
+    const auto after = std::lower_bound(points.begin(), points.end(), s,
+                                        [](const ContactPoint& p, double at) { return p.s < at; });
+    if (after == points.begin() || after == points.end()) continue;
+    if (after->s - s < 1e-9 * length || s - (after - 1)->s < 1e-9 * length) continue;
+    intervals.push_back(static_cast<int>(after - points.begin()) - 1);
+  }
+  return refine_intervals(intervals);
+}
+
+int ContactTerms::refine_intervals(const std::vector<int>& intervals) {
+  if (intervals.empty()) return 0;
+  const std::vector<ContactPoint>& old = set_->points();
+  const int n = set_->size();
+  std::vector<int> parts(n - 1, 1);
+  for (int i : intervals) {
+    // The neighbourhood as well: the rod may slide on before it rests.
+    const double window = 1.5 * old[i].radius, apart = old[i + 1].s - old[i].s;
+    for (int j = i; j >= 0 && old[i].s - old[j + 1].s < window; --j)
+      if (old[j + 1].s - old[j].s > 0.7 * apart) parts[j] = refinement;
+    for (int j = i; j + 1 < n && old[j].s - old[i + 1].s < window; ++j)
+      if (old[j + 1].s - old[j].s > 0.7 * apart) parts[j] = refinement;
+  }
   std::vector<ContactPoint> points;
   std::vector<double> shifts;
-  int added = 0;
-  for (int i = 0; i < set_->size(); ++i) {
-    points.push_back(set_->points()[i]);
+  std::vector<char> grouped;
+  const RodMesh& mesh = system_->mesh();
+  for (int i = 0; i < n; ++i) {
+    points.push_back(old[i]);
     shifts.push_back(set_->shifts()[i]);
-    if (i + 1 == set_->size() || set_->excluded(i) || set_->excluded(i + 1)) continue;
-    const Deepest between = deepest_between(i, shape);
-    const double radius = points.back().radius;
-    const double ends = 1e-3 * (set_->points()[i + 1].s - points.back().s);
-    if (between.penetration <= most * radius || between.point.s - points.back().s < ends ||
-        set_->points()[i + 1].s - between.point.s < ends)
-      continue;
-    points.push_back(between.point);
-    shifts.push_back(0.5 * (set_->shifts()[i] + set_->shifts()[i + 1]));
-    ++added;
+    grouped.push_back(set_->grouped()[i] || (i > 0 && parts[i - 1] > 1) || (i + 1 < n && parts[i] > 1));
+    if (i + 1 == n) break;
+    const double start = mesh.s[old[i].segment], h = mesh.segments[old[i].segment].length;
+    for (int k = 1; k < parts[i]; ++k) {
+      const double share = double(k) / parts[i];
+      const double s = old[i].s + share * (old[i + 1].s - old[i].s);
+      points.push_back(contact_point_at(mesh.s, radii_, element_, old[i].segment, (s - start) / h));
+      shifts.push_back((1 - share) * set_->shifts()[i] + share * set_->shifts()[i + 1]);
+      grouped.push_back(1);
+    }
   }
-  if (added == 0) return 0;
+  const int added = static_cast<int>(points.size()) - n;
   set_trapezoid_weights(points);
   replace_set(std::move(points), shifts);
-  stand_at(state);
+  set_->set_grouped(grouped);
   return added;
 }
 

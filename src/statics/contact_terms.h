@@ -46,11 +46,16 @@ class ContactTerms final : public FurtherTerms {
   };
   Deepest deepest_at(const RodState& state) const;
 
-  /// Adds a point wherever the rod overlaps more than `most` radii between two points. Returns how many.
+  /// Adds points around every place where the rod overlaps more than `most` radii between two points: four times as
+  /// many there. Returns how many were added.
   int refine(const RodState& state, double most);
+
+  /// The same around given arc lengths: where an earlier solution had contact between this set's points.
+  int refine_around(const std::vector<double>& arc_lengths);
 
  private:
   Deepest deepest_between(int i, const VertexShape& shape) const;
+  int refine_intervals(const std::vector<int>& intervals);
   void replace_set(std::vector<ContactPoint> points, const std::vector<double>& shifts);
   bool near_hold(double s, double radius) const;
 

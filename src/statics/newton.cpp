@@ -133,7 +133,9 @@ void Newton::move_along_softest_mode(RodState& state) {
   }
   step_ = mode;
   const double size = size_of_step();
-  if (std::isfinite(size) && size > 0) state.apply(step_, 0.1 / size);
+  if (!std::isfinite(size) || size == 0) return;
+  const double share = 0.1 / size;
+  state.apply(step_, further_ ? further_->allowed(state, step_, share) : share);
 }
 
 double Newton::energy_at(const RodState& state) const {
@@ -184,7 +186,11 @@ NewtonOutcome Newton::run(RodState& state, const NewtonOptions& options, const R
       if (allowed >= 0.3 * share) blocked = 0;
       share = allowed;
     }
-    if (options.descend) share = armijo_share(state, share);
+    if (options.descend) {
+      const double guarded = share;
+      share = armijo_share(state, share);
+      if (further_ && share < guarded) share = further_->allowed(state, step_, share);
+    }
     if (!options.descend) system_.predict(step_, share);
     if (further_) further_->stepped(state, step_, share);
     state.apply(step_, share);

@@ -36,9 +36,12 @@ std::string explain_failure(const NewtonOutcome& outcome, const RodSystem& syste
 RodSolver::RodSolver(const RodProblem& problem, const SolveOptions& options, int segments, int refinement)
     : options_(options),
       system_(make_rod_system(problem, options, cut_into_segments(problem, segments, refinement))),
-      newton_(*system_, nullptr) {}
+      newton_(*system_, nullptr) {
+  if (problem.surroundings) contact_ = std::make_unique<ContactSolver>(*system_, options_);
+}
 
 RodState RodSolver::starting_state(const Equilibrium* from) const {
+  if ((!from || from->s.empty()) && contact_) return contact_->clear_start();
   if (!from || from->s.empty()) return system_->state_from(first_guess(system_->problem(), system_->mesh()));
   const std::vector<double>& s = system_->mesh().s;
   const double stretch = from->s.back() / s.back();
@@ -92,7 +95,25 @@ NewtonOutcome RodSolver::with_fallbacks(RodState& state, bool warm, const RunCon
   return outcome;
 }
 
+Equilibrium RodSolver::solve_in_contact(const RunContext& context, const Equilibrium* from) {
+  Equilibrium out;
+  RodState state = starting_state(from);
+  const ContactOutcome outcome = contact_->run(state, from, context);
+  out.status = outcome.newton.status;
+  out.iterations = outcome.newton.iterations;
+  out.last_step = outcome.newton.last_step;
+  out.negative_pivots = outcome.newton.negative_pivots;
+  out.fallbacks = outcome.fallbacks;
+  out.stable = out.ok() && out.negative_pivots == 0;
+  out.message = out.ok()                  ? "solved"
+                : outcome.message.empty() ? explain_failure(outcome.newton, *system_)
+                                          : outcome.message;
+  describe(state, out);
+  return out;
+}
+
 Equilibrium RodSolver::solve(const RunContext& context, const Equilibrium* from) {
+  if (contact_) return solve_in_contact(context, from);
   Equilibrium out;
   RodState state = starting_state(from);
   const NewtonOutcome outcome = with_fallbacks(state, from != nullptr, context, out.fallbacks);
@@ -116,6 +137,10 @@ void RodSolver::describe(const RodState& state, Equilibrium& out) {
   for (const MeshSegment& segment : mesh.segments) out.radii.push_back(segment.section.radius());
   system_->describe(state, out);
   system_->gradient(state, gradient_);
+  if (contact_) {
+    contact_->add_gradient(state, gradient_);
+    contact_->describe(state, out);
+  }
   out.reactions.resize(system_->problem().holds.size());
   for (std::size_t k = 0; k < out.reactions.size(); ++k) {
     const Hold& hold = system_->problem().holds[k];

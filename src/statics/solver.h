@@ -5,6 +5,7 @@
 #include <string>
 
 #include "base/run_context.h"
+#include "statics/contact_solver.h"
 #include "statics/newton.h"
 
 namespace tendril {
@@ -27,11 +28,13 @@ class RodSolver {
 
  private:
   NewtonOutcome with_fallbacks(RodState& state, bool warm, const RunContext& context, int& fallbacks);
+  Equilibrium solve_in_contact(const RunContext& context, const Equilibrium* from);
   void describe(const RodState& state, Equilibrium& out);
 
   SolveOptions options_;
   std::unique_ptr<RodSystem> system_;
   Newton newton_;
+  std::unique_ptr<ContactSolver> contact_;  ///< null without surroundings
   std::vector<Vec6> gradient_;
 };
 

@@ -1,0 +1,151 @@
+#include "statics/contact_start.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/units.h"
+#include "statics/first_guess.h"
+
+namespace tendril {
+
+namespace {
+
+/// How the held spans of a guess differ from the usual ones: share of the slack that is let out, and turn of the bulge
+/// about the chord (degrees).
+struct SpanVariant {
+  double slack, turn;
+};
+constexpr std::array<SpanVariant, 18> span_variants{
+    {{1, 0},      {0.7, 0},    {0.4, 0},   {0.15, 0},  {1, 45},     {1, -45},     {1, 90},     {1, -90},     {1, 180},
+     {0.4, 90},   {0.4, -90},  {0.4, 180}, {0, 0},     {1, 135},    {1, -135},    {0.15, 90},  {0.15, -90},  {0.15, 180}}};
+
+/// How free ends differ: curled by so much in all (degrees), away from gravity turned by `turn` about the tangent.
+struct TailVariant {
+  double curl, turn;
+};
+constexpr std::array<TailVariant, 12> tail_variants{{{60, 0},
+                                                     {120, 0},
+                                                     {60, 90},
+                                                     {60, -90},
+                                                     {180, 0},
+                                                     {120, 90},
+                                                     {120, -90},
+                                                     {270, 0},
+                                                     {60, 180},
+                                                     {270, 90},
+                                                     {270, -90},
+                                                     {120, 180}}};
+
+/// The straight way from held place to held place: the shortest that the rod could be.
+struct Chord {
+  double length = 0;  ///< m, summed over the spans
+  double held = 0;    ///< m of rod between the first and the last held place
+  Vec3 along = Vec3::Zero();
+};
+
+Chord chord_of(const RodSystem& system) {
+  const RodProblem& problem = system.problem();
+  std::vector<std::pair<double, Vec3>> places;
+  for (const Hold& hold : problem.holds)
+    if (hold.position) places.push_back({hold.at, hold.frame.at});
+  std::sort(places.begin(), places.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  Chord chord;
+  for (std::size_t k = 1; k < places.size(); ++k) chord.length += (places[k].second - places[k - 1].second).norm();
+  if (places.size() < 2) return chord;
+  chord.held = places.back().first - places.front().first;
+  const Vec3 way = places.back().second - places.front().second;
+  if (way.norm() > 0) chord.along = way.normalized();
+  return chord;
+}
+
+std::vector<Frame> guess(const RodSystem& system, const Chord& chord, const SpanVariant& variant) {
+  RodProblem problem = system.problem();
+  RodMesh mesh = system.mesh();
+  if (variant.turn != 0) {
+    // Without gravity the bulge has no preferred side to be turned from.
+    const Vec3 down = problem.gravity.isZero(0) ? Vec3(chord.along.unitOrthogonal()) : problem.gravity;
+    problem.gravity = Eigen::AngleAxisd(variant.turn * units::deg, chord.along) * down;
+  }
+  if (variant.slack < 1) {
+    const double shortest = std::min(1.0, chord.length / chord.held);
+    const double share = shortest + (1 - shortest) * variant.slack * variant.slack;
+    for (double& s : mesh.s) s *= share;
+  }
+  return first_guess(problem, mesh);
+}
+
+/// Rotation of one step of a curl: about the axis that leads the tangent of `frame` towards `side`.
+Vec3 curl_axis(const Frame& frame, const Vec3& up, double turn, double sign) {
+  const Vec3 tangent = sign * frame.d3();
+  Vec3 side = up - tangent * tangent.dot(up);
+  if (side.norm() < 1e-3) side = frame.d1();
+  side = Eigen::AngleAxisd(turn * units::deg, tangent) * side.normalized();
+  return sign * (frame.rotation.conjugate() * tangent.cross(side));
+}
+
+/// Replaces the free ends of a guess by arcs.
+void curl_tails(const RodSystem& system, const TailVariant& variant, std::vector<Frame>& frames) {
+  const RodMesh& mesh = system.mesh();
+  const auto [first, last] = std::minmax_element(mesh.hold_vertex.begin(), mesh.hold_vertex.end());
+  const Vec3 up = system.problem().gravity.isZero(0) ? Vec3::UnitZ() : Vec3(-system.problem().gravity.normalized());
+  const int n = mesh.vertices();
+  if (*last < n - 1) {
+    const double angle = variant.curl * units::deg / (mesh.s[n - 1] - mesh.s[*last]);
+    const Vec3 axis = curl_axis(frames[*last], up, variant.turn, 1);
+    for (int i = *last; i + 1 < n; ++i) {
+      const Vec3 half = 0.5 * angle * mesh.segments[i].length * axis;
+      const Frame turned{Vec3::Zero(), exp_rotation(half)};
+      frames[i + 1] = frames[i] * turned * mesh.segments[i].reference * turned;
+    }
+  }
+  if (*first > 0) {
+    const double angle = variant.curl * units::deg / (mesh.s[*first] - mesh.s[0]);
+    const Vec3 axis = curl_axis(frames[*first], up, variant.turn, -1);
+    for (int i = *first - 1; i >= 0; --i) {
+      const Vec3 half = -0.5 * angle * mesh.segments[i].length * axis;
+      const Frame turned{Vec3::Zero(), exp_rotation(-half)};
+      frames[i] = frames[i + 1] * turned * mesh.segments[i].reference.inverse() * turned;
+    }
+  }
+}
+
+/// Tries a guess; true when it is free of crossings.
+bool consider(const RodSystem& system, ContactTerms& terms, const std::vector<Frame>& frames, ContactStart& best) {
+  RodState state = system.state_from(frames);
+  terms.stand_at(state);
+  const int crossings = static_cast<int>(terms.guard().crossings().size());
+  if (best.tried == 0 || crossings < best.crossings) {
+    best.state = std::move(state);
+    best.crossings = crossings;
+  }
+  ++best.tried;
+  return crossings == 0;
+}
+
+}  // namespace
+
+ContactStart clear_start(const RodSystem& system, ContactTerms& terms) {
+  ContactStart best;
+  const RodMesh& mesh = system.mesh();
+  const Chord chord = chord_of(system);
+  const bool spans_vary = chord.held > 0 && !chord.along.isZero(0) && !system.problem().rod.shape;
+  std::vector<Frame> frames = guess(system, chord, {1, 0});
+  if (consider(system, terms, frames, best)) return best;
+  for (std::size_t k = 1; spans_vary && k < span_variants.size(); ++k) {
+    const int before = best.crossings;
+    std::vector<Frame> other = guess(system, chord, span_variants[k]);
+    if (consider(system, terms, other, best)) return best;
+    if (best.crossings < before) frames = std::move(other);
+  }
+  const auto [first, last] = std::minmax_element(mesh.hold_vertex.begin(), mesh.hold_vertex.end());
+  const bool tails = *first > 0 || *last < mesh.vertices() - 1;
+  for (std::size_t k = 0; tails && k < tail_variants.size(); ++k) {
+    std::vector<Frame> other = frames;
+    curl_tails(system, tail_variants[k], other);
+    if (consider(system, terms, other, best)) return best;
+  }
+  return best;
+}
+
+}  // namespace tendril
