@@ -93,9 +93,9 @@ void add_breathing(Parts& parts, const Detail& detail) {
   parts.body("intake_snorkel", sweep(rounded_path({{1240, 112, 450}, {1240, 60, 450}, {1240, 14, 490}}, 50, detail),
                                      rounded_rectangle(110, 46, 14, detail), Ends::capped, detail, Vec3::UnitZ()));
   parts.body("exhaust_flange", box({584, 614, 436}, {986, 626, 496}, 4, detail));
-  parts.body("catalyst", catalyst(detail));
-  parts.body("downpipe", round_bar(rounded_path({{785, 762, 118}, {785, 762, 78}, {785, 868, 72}}, 38, detail), 28, detail));
-  parts.body("lambda_probe", placed(turned({{0, 0}, {8, 0}, {8, 14}, {12, 16}, {12, 26}, {7, 28}, {7, 60}, {0, 60}}, detail, 1),
+  parts.body("exhaust_catalyst", catalyst(detail));
+  parts.body("exhaust_downpipe", round_bar(rounded_path({{785, 762, 118}, {785, 762, 78}, {785, 868, 72}}, 38, detail), 28, detail));
+  parts.body("exhaust_probe", placed(turned({{0, 0}, {8, 0}, {8, 14}, {12, 16}, {12, 26}, {7, 28}, {7, 60}, {0, 60}}, detail, 1),
                                     facing({840, 770, 232}, Vec3(1, 0.3, 0.35).normalized())));
   parts.sheet("exhaust_heat_shield", heat_shield(detail));
 }

@@ -41,10 +41,13 @@ Mesh shift_tower(const Detail& detail) {
   return mesh;
 }
 
-// Carries cables and hoses over the gearbox: a pressed bridge.
+// Carries a hose over the gearbox: a pressed bridge with a flared trough on it.
 Mesh hose_bridge(const Detail& detail) {
-  return strap({{408, 430, 309}, {408, 462, 309}, {408, 470, 376}, {408, 540, 376}, {408, 548, 309}, {408, 575, 309}}, 46, 4,
-               Vec3::UnitX(), detail);
+  Mesh mesh = strap({{408, 430, 309}, {408, 462, 309}, {408, 472, 366}, {408, 538, 366}, {408, 548, 309}, {408, 575, 309}}, 46, 4,
+                    Vec3::UnitX(), detail);
+  mesh.append(strap({{370, 505, 412}, {384, 505, 396}, {390, 505, 369.5}, {426, 505, 369.5}, {432, 505, 396}, {446, 505, 412}}, 74, 3,
+                    Vec3::UnitY(), detail));
+  return mesh;
 }
 
 Mesh bellows(double from, double to, const Detail& detail) {
