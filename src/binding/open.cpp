@@ -9,6 +9,12 @@ void open_tendril(lua_State* L) {
   bind_units(L);
   bind_vec(L);
   bind_frame(L);
+  bind_rod(L);
+  bind_curve(L);
+  bind_scene(L);
+  bind_equilibrium(L);
+  bind_view(L);
+  bind_study(L);
   bind_help(L);
   bind_time(L);
 }

@@ -12,6 +12,12 @@ void open_tendril(lua_State* L);
 void bind_units(lua_State* L);
 void bind_vec(lua_State* L);
 void bind_frame(lua_State* L);
+void bind_rod(lua_State* L);
+void bind_curve(lua_State* L);
+void bind_scene(lua_State* L);
+void bind_equilibrium(lua_State* L);
+void bind_view(lua_State* L);
+void bind_study(lua_State* L);
 void bind_help(lua_State* L);
 void bind_time(lua_State* L);
 

@@ -137,9 +137,15 @@ void check(const Scene& scene, const AccuracyOptions& options) {
 
 }  // namespace
 
+std::string Accuracy::element() const {
+  if (solve.element == Element::se3) return "se3";
+  return solve.clamp == ClampRule::thesis ? "staggered, thesis's clamp" : "staggered";
+}
+
 Accuracy study_accuracy(const Scene& scene, const AccuracyOptions& options, const RunContext& context) {
   check(scene, options);
   Accuracy result;
+  result.solve = options.solve;
   const auto surroundings = scene.surroundings();
   const int finest = *std::max_element(options.segments.begin(), options.segments.end());
   const Reference reference =

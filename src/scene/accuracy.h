@@ -27,11 +27,15 @@ struct AccuracyRow {
 
 struct Accuracy {
   std::vector<AccuracyRow> rows;
+  SolveOptions solve;                ///< as they were asked for
   int reference_segments = 0;        ///< se3 element; with Richardson extrapolation where its order is the fourth
   bool extrapolated = false;
   double reference_uncertainty = 0;  ///< m, what the last refinement of the reference still changed
   Status status = Status::solved;    ///< not solved: the reference could not be had, or the time was up
   std::string message;
+
+  /// "se3", "staggered" or "staggered, thesis's clamp".
+  std::string element() const;
 };
 
 /// Solves `scene` for each number of segments. Throws UsageError for an empty list and for numbers of segments out of

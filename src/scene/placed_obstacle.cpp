@@ -87,9 +87,9 @@ Mesh mesh_of_plane(const Frame& pose, const Eigen::AlignedBox3d& around) {
 }  // namespace
 
 void PlacedObstacle::check() const {
-  if (name.empty()) throw UsageError("scene.obstacle: the name is empty, expected a word");
+  if (name.empty()) throw UsageError("scene:obstacle: the name is empty, expected a word");
   if (!std::isfinite(clearance) || clearance < 0)
-    throw UsageError("scene.obstacle: '" + name + "': 'clearance' is " + std::to_string(clearance) +
+    throw UsageError("scene:obstacle: '" + name + "': 'clearance' is " + std::to_string(clearance) +
                      " m, expected a finite number of at least 0");
   Surroundings().add(body);
 }

@@ -27,7 +27,7 @@ double angle_between(const Quat& a, const Quat& b) { return log_rotation(a.conju
 
 PlacedRod::PlacedRod(std::string name, Rod rod, const std::optional<Frame>& from, const std::optional<Frame>& to)
     : name_(std::move(name)), rod_(std::move(rod)) {
-  if (name_.empty()) throw UsageError("scene.rod: the name is empty, expected a word");
+  if (name_.empty()) throw UsageError("scene:rod: the name is empty, expected a word");
   rod_.check();
   if (from) hold({0, *from});
   if (to) hold({rod_.length, *to});
@@ -63,12 +63,12 @@ const Hold* PlacedRod::hold_at(double at) const {
 }
 
 void PlacedRod::hold(const Hold& wanted) {
-  check_place("hold", wanted.at);
+  check_place("placed_rod:hold", wanted.at);
   if (!all_finite(wanted.frame.at) || !all_finite(wanted.frame.rotation.coeffs()))
-    throw UsageError("hold: the frame for '" + name_ + "' at " + describe(wanted.at) + " has numbers that are not finite");
-  if (!std::isfinite(wanted.turns)) throw UsageError("hold: 'turns' is not a finite number");
+    throw UsageError("placed_rod:hold: the frame for '" + name_ + "' at " + describe(wanted.at) + " has numbers that are not finite");
+  if (!std::isfinite(wanted.turns)) throw UsageError("placed_rod:hold: 'turns' is not a finite number");
   if (!wanted.position && !wanted.orientation)
-    throw UsageError("hold: neither position nor orientation of '" + name_ + "' at " + describe(wanted.at) +
+    throw UsageError("placed_rod:hold: neither position nor orientation of '" + name_ + "' at " + describe(wanted.at) +
                      " is held; use release to remove a hold");
   const auto old = find(wanted.at);
   if (old == holds_.end()) {
@@ -76,12 +76,12 @@ void PlacedRod::hold(const Hold& wanted) {
     return;
   }
   if (old->position && wanted.position && (old->frame.at - wanted.frame.at).norm() > same_place * rod_.length)
-    throw UsageError("hold: contradictory holds: '" + name_ + "' is already held at " + describe(wanted.at) +
+    throw UsageError("placed_rod:hold: contradictory holds: '" + name_ + "' is already held at " + describe(wanted.at) +
                      " in position " + vector(old->frame.at) + ", got " + vector(wanted.frame.at) +
                      "; release it there first");
   const double turn = angle_between(old->frame.rotation, wanted.frame.rotation);
   if (old->orientation && wanted.orientation && turn > same_angle)
-    throw UsageError("hold: contradictory holds: '" + name_ + "' is already held at " + describe(wanted.at) +
+    throw UsageError("placed_rod:hold: contradictory holds: '" + name_ + "' is already held at " + describe(wanted.at) +
                      " in an orientation that differs by " + number(turn / units::deg) +
                      " degrees; release it there first");
   Hold merged = wanted;
@@ -98,16 +98,16 @@ void PlacedRod::hold(const Hold& wanted) {
 }
 
 void PlacedRod::release(double at) {
-  check_place("release", at);
+  check_place("placed_rod:release", at);
   const auto found = find(at);
-  if (found == holds_.end()) throw UsageError("release: '" + name_ + "' is not held at " + describe(at));
+  if (found == holds_.end()) throw UsageError("placed_rod:release: '" + name_ + "' is not held at " + describe(at));
   holds_.erase(found);
 }
 
 void PlacedRod::load(const PointLoad& load) {
-  check_place("load", load.at);
-  if (!all_finite(load.force)) throw UsageError("load: 'force' must be finite numbers in N");
-  if (!all_finite(load.moment)) throw UsageError("load: 'moment' must be finite numbers in N m");
+  check_place("placed_rod:load", load.at);
+  if (!all_finite(load.force)) throw UsageError("placed_rod:load: 'force' must be finite numbers in N");
+  if (!all_finite(load.moment)) throw UsageError("placed_rod:load: 'moment' must be finite numbers in N m");
   loads_.push_back(load);
 }
 

@@ -57,14 +57,14 @@ void Scene::check_free(std::string_view name, const char* who) const {
 }
 
 void Scene::add(PlacedObstacle obstacle) {
-  check_free(obstacle.name, "scene.obstacle");
+  check_free(obstacle.name, "scene:obstacle");
   obstacle.check();
   obstacles_.push_back(std::move(obstacle));
   surroundings_.reset();
 }
 
 PlacedRod& Scene::add(PlacedRod rod) {
-  check_free(rod.name(), "scene.rod");
+  check_free(rod.name(), "scene:rod");
   rods_.push_back(std::make_unique<PlacedRod>(std::move(rod)));
   return *rods_.back();
 }
@@ -81,7 +81,7 @@ void Scene::remove(std::string_view name) {
     std::vector<std::string> names;
     for (const auto& r : rods_) names.push_back(r->name());
     for (const PlacedObstacle& o : obstacles_) names.push_back(o.name);
-    throw UsageError("scene.remove: unknown name " + unknown_name(name, "rods and obstacles", names));
+    throw UsageError("scene:remove: unknown name " + unknown_name(name, "rods and obstacles", names));
   }
   obstacles_.erase(obstacle);
   surroundings_.reset();
@@ -125,12 +125,12 @@ RodProblem Scene::problem_of(const PlacedRod& rod) const {
 
 SceneEquilibrium Scene::solve(const SolveOptions& options, const RunContext& context,
                               const SceneEquilibrium* from) const {
-  if (rods_.empty()) throw UsageError("scene.solve: the scene has no rods; add one with scene:rod(name, design, {...})");
+  if (rods_.empty()) throw UsageError("scene:solve: the scene has no rods; add one with scene:rod(name, design, {...})");
   SceneEquilibrium result;
   for (const auto& rod : rods_) {
     result.rods.push_back({rod->name(), problem_of(*rod), options, {}});
     if (rod->holds().empty())
-      throw UsageError("scene.solve: '" + rod->name() +
+      throw UsageError("scene:solve: '" + rod->name() +
                        "' is not held anywhere, so it can move freely; give it from= or to=, or hold it");
   }
   result.surroundings = surroundings();
@@ -151,7 +151,7 @@ SceneEquilibrium Scene::solve(const SolveOptions& options, const RunContext& con
     try {
       rod.equilibrium = tendril::solve(rod.problem, options, context, warm);
     } catch (const UsageError& error) {
-      throw UsageError("scene.solve: '" + rod.name + "': " + error.what());
+      throw UsageError("scene:solve: '" + rod.name + "': " + error.what());
     }
   }
   result.seconds = seconds_since(solving);

@@ -1,0 +1,205 @@
+// equilibrium: what a solve found, and everything measured on it.
+#include <cmath>
+#include <limits>
+
+#include "binding/scene_cards.h"
+#include "binding/lua_class.h"
+#include "binding/open.h"
+#include "binding/number_like.h"
+#include "binding/scene_classes.h"
+
+namespace tendril::lua {
+namespace {
+
+using Eq = std::shared_ptr<SceneEquilibrium>;
+using Where = std::variant<std::string, double>;
+
+std::size_t index_of(const SceneEquilibrium& eq, const std::string& name) {
+  return static_cast<std::size_t>(&eq.rod(name) - eq.rods.data());
+}
+
+double place_on(const SolvedRod& rod, const Where& where) {
+  const std::string* end = std::get_if<std::string>(&where);
+  if (!end) return std::get<double>(where);
+  if (*end == "start") return 0;
+  if (*end == "finish") return rod.problem.rod.length;
+  throw UsageError("equilibrium: unknown place '" + *end + "', expected \"start\", \"finish\" or an arc length in m");
+}
+
+ClearanceValue clearance_value(const SceneEquilibrium& eq, const Clearance& clearance) {
+  if (clearance.obstacle < 0) return {clearance, "", 0};
+  const PlacedObstacle& obstacle = eq.obstacles[clearance.obstacle];
+  return {clearance, obstacle.name, obstacle.clearance};
+}
+
+Schema clearance_options() {
+  return {
+      option<std::string>("from", "", "The rod; may be left out when there is only one"),
+      option<std::string>("to", "", "The obstacle; default: the nearest of all"),
+  };
+}
+
+ClearanceValue clearance_between(const SceneEquilibrium& eq, const Options& o) {
+  if (!o.has("from") && eq.rods.size() != 1)
+    throw UsageError("equilibrium:clearance: 'from' is missing: there are " + std::to_string(eq.rods.size()) + " rods");
+  const SolvedRod& rod = o.has("from") ? eq.rod(o.get<std::string>("from")) : eq.rods.front();
+  const int to = o.has("to") ? eq.obstacle(o.get<std::string>("to")) : -1;
+  return clearance_value(eq, eq.clearance(rod, to));
+}
+
+std::vector<ContactHandle> contacts_of(const SceneEquilibrium& eq, const SolvedRod& rod) {
+  std::vector<ContactHandle> all;
+  for (const ContactForce& force : rod.equilibrium.contacts) {
+    const bool known = force.obstacle >= 0 && force.obstacle < static_cast<int>(eq.obstacles.size());
+    all.push_back({force, rod.name, known ? eq.obstacles[force.obstacle].name : std::string()});
+  }
+  return all;
+}
+
+std::vector<Frame> frames_of(const Equilibrium& eq) {
+  std::vector<Frame> frames;
+  for (std::size_t i = 0; i < eq.points.size(); ++i) frames.push_back({eq.points[i], eq.rotations[i]});
+  return frames;
+}
+
+std::vector<double> tensions_of(const Equilibrium& eq) {
+  std::vector<double> tension;
+  for (std::size_t i = 0; i < eq.forces.size(); ++i)
+    tension.push_back(eq.forces[i].dot((eq.points[i + 1] - eq.points[i]).normalized()));
+  return tension;
+}
+
+std::vector<double> twists_of(const Equilibrium& eq) {
+  std::vector<double> twist;
+  for (const Vec3& omega : eq.curvatures) twist.push_back(omega.z());
+  return twist;
+}
+
+void bind_values(lua_State* L) {
+  Class<ClearanceValue> clearance(L, "The smallest gap; computes as a number in m, negative where surfaces penetrate");
+  clearance.property("value", "m", "The gap as a plain number", [](const ClearanceValue& c) { return c.clearance.value; })
+      .property("s", "m", "Arc length of the place on the rod", [](const ClearanceValue& c) { return c.clearance.s; })
+      .property("at", "m", "The place on the rod's centre line", [](const ClearanceValue& c) { return c.clearance.at; })
+      .property("point", "m", "The closest point of the obstacle", [](const ClearanceValue& c) { return c.clearance.on; })
+      .property("on", "", "Name of the obstacle, nil without one", [](const ClearanceValue& c) {
+        return c.obstacle.empty() ? std::nullopt : std::optional<std::string>(c.obstacle);
+      })
+      .property("required", "m", "The clearance required of that obstacle", [](const ClearanceValue& c) { return c.required; })
+      .property("ok", "", "At least the required clearance", [](const ClearanceValue& c) { return c.clearance.value >= c.required; })
+      .tostring(describe_clearance);
+  compute_as_number(clearance);
+
+  Class<ErrorValue> error(L, "Estimated discretisation error of the centre line; computes as a number in m");
+  error.property("value", "m", "The estimate as a plain number", [](const ErrorValue& e) { return e.estimate.value; })
+      .property("valid", "", "False: too coarse to be trusted; see why", [](const ErrorValue& e) { return e.estimate.valid; })
+      .property("why", "", "Why it is not valid", [](const ErrorValue& e) { return e.estimate.why; })
+      .property("order", "", "Observed order of convergence", [](const ErrorValue& e) { return e.estimate.order; })
+      .tostring(describe_error);
+  compute_as_number(error);
+
+  Class<Energy>(L, "Energy by term, all rods")
+      .property("bend", "J", "Bending", [](const Energy& e) { return e.bend; })
+      .property("twist", "J", "Twist", [](const Energy& e) { return e.twist; })
+      .property("stretch", "J", "Stretch", [](const Energy& e) { return e.stretch; })
+      .property("shear", "J", "Shear", [](const Energy& e) { return e.shear; })
+      .property("gravity", "J", "Weight times height above the world origin", [](const Energy& e) { return e.gravity; })
+      .property("contact", "J", "Elastic energy of contact", [](const Energy& e) { return e.contact; })
+      .property("load", "J", "Potential of the dead loads", [](const Energy& e) { return e.load; })
+      .property("total", "J", "Sum of all", [](const Energy& e) { return e.total(); })
+      .tostring(describe_energy);
+
+  Class<ContactHandle>(L, "A force that the surroundings exert on a rod")
+      .property("rod", "", "Name of the rod", [](const ContactHandle& c) { return c.rod; })
+      .property("on", "", "Name of the obstacle", [](const ContactHandle& c) { return c.obstacle; })
+      .property("s", "m", "Arc length", [](const ContactHandle& c) { return c.force.s; })
+      .property("at", "m", "Place on the centre line", [](const ContactHandle& c) { return c.force.point; })
+      .property("force", "N", "On the rod, world axes", [](const ContactHandle& c) { return c.force.force; })
+      .property("gap", "m", "Between the surfaces; negative: penetration", [](const ContactHandle& c) { return c.force.gap; })
+      .tostring(describe_contact);
+}
+
+void bind_solved_rod(lua_State* L) {
+  Class<SolvedRodHandle>(L, "One rod in equilibrium")
+      .property("name", "", "Its name in the scene", [](const SolvedRodHandle& r) { return r.rod().name; })
+      .property("design", "", "What it is", [](const SolvedRodHandle& r) { return r.rod().problem.rod; })
+      .property("ok", "", "Solved", [](const SolvedRodHandle& r) { return r.rod().equilibrium.ok(); })
+      .property("status", "", "How the solve ended", [](const SolvedRodHandle& r) { return name_of(r.rod().equilibrium.status); })
+      .property("arc_lengths", "m", "Of the vertices, unstressed", [](const SolvedRodHandle& r) { return r.rod().equilibrium.s; })
+      .property("points", "m", "Vertices of the centre line", [](const SolvedRodHandle& r) { return r.rod().equilibrium.points; })
+      .property("frames", "", "Sections at the vertices", [](const SolvedRodHandle& r) { return frames_of(r.rod().equilibrium); })
+      .property("bend_radius", "m", "At the vertices", [](const SolvedRodHandle& r) { return r.rod().equilibrium.bend_radii(); })
+      .property("min_bend_radius", "m", "The smallest; math.huge when straight",
+                [](const SolvedRodHandle& r) { return r.rod().equilibrium.smallest_bend_radius(); })
+      .property("tension", "N", "Of each segment; negative: compression", [](const SolvedRodHandle& r) { return tensions_of(r.rod().equilibrium); })
+      .property("twist", "rad/m", "Of each segment", [](const SolvedRodHandle& r) { return twists_of(r.rod().equilibrium); })
+      .property("max_tension", "N", "The largest; negative: compression everywhere",
+                [](const SolvedRodHandle& r) { return r.rod().equilibrium.largest_tension(); })
+      .property("max_strain", "", "The largest", [](const SolvedRodHandle& r) { return r.rod().equilibrium.largest_strain(); })
+      .property("length", "m", "Of the deformed centre line", [](const SolvedRodHandle& r) { return r.rod().equilibrium.settled_length(); })
+      .property("clearance", "m", "Smallest gap to any obstacle",
+                [](const SolvedRodHandle& r) { return clearance_value(*r.equilibrium, r.equilibrium->clearance(r.rod())); })
+      .property("contacts", "", "Forces of the surroundings on it", [](const SolvedRodHandle& r) { return contacts_of(*r.equilibrium, r.rod()); })
+      .method("at", {.takes = {"s"}, .does = "The section's frame at an arc length in m."},
+              [](const SolvedRodHandle& r, double s) {
+                const double length = r.rod().problem.rod.length;
+                if (s < 0 || s > length)
+                  throw UsageError("solved_rod:at: s is " + std::to_string(s) + " m, expected 0 to " + std::to_string(length));
+                return r.rod().equilibrium.frame_at(s);
+              })
+      .tostring(describe_solved_rod);
+}
+
+}  // namespace
+
+void bind_equilibrium(lua_State* L) {
+  bind_values(L);
+  bind_solved_rod(L);
+  Class<SceneEquilibrium>(L, "A scene in static equilibrium, as it was when it was solved")
+      .property("ok", "", "Every rod is solved", [](const SceneEquilibrium& e) { return e.ok(); })
+      .property("status", "", "\"solved\", \"stalled\", \"cancelled\", \"timeout\"", [](const SceneEquilibrium& e) { return name_of(e.status()); })
+      .property("message", "", "What there is to say about it", [](const SceneEquilibrium& e) { return e.message(); })
+      .property("seconds", "s", "Time to solve, without building trees", [](const SceneEquilibrium& e) { return e.seconds; })
+      .property("seconds_for_trees", "s", "Time to build the obstacles' trees, 0 when they stood already",
+                [](const SceneEquilibrium& e) { return e.seconds_for_trees; })
+      .property("iterations", "", "Newton steps, all rods", [](const SceneEquilibrium& e) { return e.iterations(); })
+      .property("residual", "N", "Largest unbalanced force, or moment over length", [](const SceneEquilibrium& e) { return e.residual(); })
+      .property("stable", "", "No negative eigenvalue", [](const SceneEquilibrium& e) { return e.stable(); })
+      .property("deepest_penetration", "m", "0 without contact", [](const SceneEquilibrium& e) { return e.deepest_penetration(); })
+      .property("error", "m", "Estimated discretisation error; nil unless solved with error = true",
+                [](const SceneEquilibrium& e) -> std::optional<ErrorValue> {
+                  const auto error = e.error();
+                  if (!error) return std::nullopt;
+                  return ErrorValue{*error};
+                })
+      .property("energy", "J", "By term", [](const SceneEquilibrium& e) { return e.energy(); })
+      .property("rods", "", "Names of the rods", [](const SceneEquilibrium& e) {
+        std::vector<std::string> names;
+        for (const SolvedRod& rod : e.rods) names.push_back(rod.name);
+        return names;
+      })
+      .property("contacts", "", "Forces of the surroundings on the rods", [](const SceneEquilibrium& e) {
+        std::vector<ContactHandle> all;
+        for (const SolvedRod& rod : e.rods)
+          for (ContactHandle& contact : contacts_of(e, rod)) all.push_back(std::move(contact));
+        return all;
+      })
+      .method("rod", {.takes = {"name"}, .does = "One rod in equilibrium."},
+              [](Eq e, const std::string& name) { return SolvedRodHandle{e, index_of(*e, name)}; })
+      .method("force", {.takes = {"name", "where"}, .does = "Force (N, world axes) of the support on the rod at a hold."},
+              [](const SceneEquilibrium& e, const std::string& name, const Where& where) {
+                const SolvedRod& rod = e.rod(name);
+                return e.reaction(rod, place_on(rod, where)).force;
+              })
+      .method("moment", {.takes = {"name", "where"},
+                         .does = "Moment (N m, world axes, about the centre line) of the support on the rod at a hold."},
+              [](const SceneEquilibrium& e, const std::string& name, const Where& where) {
+                const SolvedRod& rod = e.rod(name);
+                return e.reaction(rod, place_on(rod, where)).moment;
+              })
+      .method("clearance", {.options = clearance_options(),
+                            .does = "The smallest gap between a rod's surface and an obstacle; computes as a number in m."},
+              [](const SceneEquilibrium& e, const Options& o) { return clearance_between(e, o); })
+      .tostring(describe_equilibrium);
+}
+
+}  // namespace tendril::lua

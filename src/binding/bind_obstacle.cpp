@@ -1,0 +1,155 @@
+#include "binding/bind_obstacle.h"
+
+#include <cstdio>
+
+#include "base/units.h"
+#include "binding/card.h"
+#include "geometry/import_mesh.h"
+
+namespace tendril::lua {
+namespace {
+
+/// The list under `field` of the table at `index`, entry by entry: `read` gets the entry's place on the stack and its
+/// number from 1.
+template <class Read>
+void for_each_entry(lua_State* L, int index, const char* field, Read read) {
+  lua_getfield(L, index, field);
+  const lua_Integer size = luaL_len(L, -1);
+  for (lua_Integer i = 1; i <= size; ++i) {
+    lua_geti(L, -1, i);
+    read(lua_gettop(L), i);
+    lua_pop(L, 1);
+  }
+  lua_pop(L, 1);
+}
+
+[[noreturn]] void bad_entry(const char* field, lua_Integer i, const std::string& got, const std::string& expected) {
+  throw UsageError(std::string("scene:obstacle: '") + field + "' entry " + std::to_string(i) + " is " + got + ", expected " +
+                   expected);
+}
+
+std::string wrong_mesh(lua_State* L, int index) {
+  if (!lua_istable(L, index)) return describe(L, index);
+  for (const char* field : {"points", "triangles"}) {
+    const int type = lua_getfield(L, index, field);
+    lua_pop(L, 1);
+    if (type != LUA_TTABLE) return std::string("a table without a list '") + field + "'";
+  }
+  return "";
+}
+
+double metres_per(const std::string& unit) {
+  if (unit == "mm") return units::mm;
+  if (unit == "cm") return units::cm;
+  if (unit == "in") return 25.4 * units::mm;
+  return units::m;
+}
+
+std::shared_ptr<const TriangleSurface> surface_from_file(lua_State* L, const std::string& path, double unit) {
+  LoadedMesh loaded = load_mesh(path, unit, run_context(L));
+  if (loaded.status != Status::solved) throw UsageError("scene:obstacle: reading '" + path + "' was interrupted");
+  if (!loaded.warning.empty()) std::fprintf(stderr, "warning: %s\n", loaded.warning.c_str());
+  return std::make_shared<const TriangleSurface>(std::move(loaded.mesh));
+}
+
+Preference preference_of(const std::string& name) {
+  if (name == "near") return Preference::near;
+  if (name == "avoid") return Preference::avoid;
+  return Preference::neutral;
+}
+
+}  // namespace
+
+const Kind& Value<Mesh>::kind() {
+  static const Kind kind{"a table {points =, triangles =}", "{points: vec[], triangles: integer[][]}", &wrong_mesh};
+  return kind;
+}
+
+Mesh Value<Mesh>::read(lua_State* L, int index) {
+  index = lua_absindex(L, index);
+  Mesh mesh;
+  for_each_entry(L, index, "points", [&](int at, lua_Integer i) {
+    const std::string got = Value<Vec3>::kind().wrong(L, at);
+    if (!got.empty()) bad_entry("points", i, got, Value<Vec3>::kind().expected);
+    mesh.vertices.push_back(Value<Vec3>::read(L, at));
+  });
+  for_each_entry(L, index, "triangles", [&](int at, lua_Integer i) {
+    using Corners = std::array<int, 3>;
+    const std::string got = Value<Corners>::kind().wrong(L, at);
+    if (!got.empty()) bad_entry("triangles", i, got, "a list of 3 whole numbers");
+    Corners corners = Value<Corners>::read(L, at);
+    for (int& corner : corners) --corner;
+    mesh.triangles.push_back(corners);
+  });
+  return mesh;
+}
+
+Schema obstacle_options() {
+  return {
+      option<std::string>("unit", "", "Length unit of the file or data; a file must be given one").one_of({"mm", "cm", "m", "in"}),
+      option<Frame>("pose", "", "Where its own axes lie: d1, d2, d3 are its x, y, z; default: the world's"),
+      option<double>("clearance", "m", "Required gap to rods: judged in reports and pictures, no force comes from it")
+          .at_least(0).preset(0),
+      option<std::string>("prefer", "", "Whether routes should keep near it or away").one_of({"neutral", "near", "avoid"}).preset("neutral"),
+      option<bool>("clip", "", "Rods may be fastened to it").preset(true),
+  };
+}
+
+PlacedObstacle make_obstacle(lua_State* L, const std::string& name, const ObstacleSource& source, const Options& o) {
+  PlacedObstacle obstacle;
+  obstacle.name = name;
+  if (const Frame* pose = o.find<Frame>("pose")) obstacle.body.pose = *pose;
+  obstacle.clearance = o.get<double>("clearance");
+  obstacle.prefer = preference_of(o.get<std::string>("prefer"));
+  obstacle.clip = o.get<bool>("clip");
+  if (const SolidValue* solid = std::get_if<SolidValue>(&source)) {
+    if (o.has("unit")) throw UsageError("scene:obstacle: 'unit' belongs to files and mesh data; a solid's sizes are in m");
+    obstacle.body.shape = solid->solid;
+    return obstacle;
+  }
+  const double scale = metres_per(o.maybe<std::string>("unit").value_or("m"));
+  if (const Mesh* data = std::get_if<Mesh>(&source)) {
+    Mesh mesh = *data;
+    mesh.name = name;
+    for (Vec3& v : mesh.vertices) v *= scale;
+    obstacle.body.shape = std::make_shared<const TriangleSurface>(std::move(mesh));
+    return obstacle;
+  }
+  const std::string& path = std::get<std::string>(source);
+  if (!o.has("unit"))
+    throw UsageError("scene:obstacle: 'unit' is missing: files do not say it, and it is never guessed; give unit = \"mm\", \"cm\", \"m\" or \"in\"");
+  obstacle.body.shape = surface_from_file(L, path, scale);
+  return obstacle;
+}
+
+void add_solids(lua_State* L, Module& scene) {
+  Class<SolidValue>(L, "A box, sphere, cylinder or half-space to place with scene:obstacle")
+      .tostring([](const SolidValue& value) -> std::string {
+        if (const Box* box = std::get_if<Box>(&value.solid))
+          return "box " + quantity(box->size.x(), "m") + " x " + quantity(box->size.y(), "m") + " x " + quantity(box->size.z(), "m");
+        if (const Sphere* sphere = std::get_if<Sphere>(&value.solid)) return "sphere of radius " + quantity(sphere->radius, "m");
+        if (const Cylinder* cylinder = std::get_if<Cylinder>(&value.solid))
+          return "cylinder of radius " + quantity(cylinder->radius, "m") + ", length " + quantity(cylinder->length, "m");
+        return "half-space below its plane";
+      });
+  scene
+      .function("box", {.options = {option<Vec3>("size", "m", "Edge lengths along its x, y, z; its middle is the pose's place").required()},
+                        .does = "A box.", .example = "print(scene.box{size = {1, 0.5, 0.2}})"},
+                [](const Options& o) {
+                  const SolidValue box{Box{o.get<Vec3>("size")}};
+                  check(box.solid, "scene.box");
+                  return box;
+                })
+      .function("sphere", {.options = {option<double>("radius", "m", "Radius; its middle is the pose's place").required().above(0)},
+                           .does = "A sphere."},
+                [](const Options& o) { return SolidValue{Sphere{o.get<double>("radius")}}; })
+      .function("cylinder",
+                {.options = {option<double>("radius", "m", "Radius").required().above(0),
+                             option<double>("length", "m", "Length along its z; its middle is the pose's place").required().above(0)},
+                 .does = "A cylinder with flat ends."},
+                [](const Options& o) { return SolidValue{Cylinder{o.get<double>("radius"), o.get<double>("length")}}; })
+      .function("plane", {.does = "Everything below a plane: solid where its own z is less than 0. `pose = frame{at =, along = normal}` places it."},
+                [](const Options&) { return SolidValue{HalfSpace{}}; });
+}
+
+}  // namespace tendril::lua

@@ -1,0 +1,30 @@
+// Obstacles from a script: mesh files, mesh data and solids.
+#pragma once
+
+#include <variant>
+
+#include "binding/lua_class.h"
+#include "binding/scene_classes.h"
+#include "geometry/mesh.h"
+
+namespace tendril::lua {
+
+/// {points = {{x, y, z}, ...}, triangles = {{1, 2, 3}, ...}}.
+template <>
+struct Value<Mesh> {
+  static const Kind& kind();
+  static Mesh read(lua_State* L, int index);
+};
+
+/// A file's name, a solid, or mesh data.
+using ObstacleSource = std::variant<std::string, SolidValue, Mesh>;
+
+Schema obstacle_options();
+
+/// Reads the file when there is one. Throws UsageError for a file that is missing, broken, or given without its unit.
+PlacedObstacle make_obstacle(lua_State* L, const std::string& name, const ObstacleSource& source, const Options& o);
+
+/// scene.box, scene.sphere, scene.cylinder, scene.plane.
+void add_solids(lua_State* L, Module& scene);
+
+}  // namespace tendril::lua

@@ -1,0 +1,149 @@
+// view: pictures of a scene and its equilibrium.
+#include "base/nearest_name.h"
+#include "binding/card.h"
+#include "binding/compose_picture.h"
+#include "binding/lua_class.h"
+#include "binding/open.h"
+#include "binding/saved_file.h"
+#include "binding/scene_classes.h"
+#include "binding/solve_options.h"
+
+namespace tendril::lua {
+
+/// What a picture will show. Drawn when it is saved.
+struct View {
+  std::shared_ptr<Scene> scene;
+  std::shared_ptr<SceneEquilibrium> equilibrium;  ///< null: the scene is not solved
+  PictureWish wish;
+};
+
+namespace {
+
+using Shown = std::variant<Scene, SceneEquilibrium>;
+using Colour = std::variant<std::string, std::array<double, 3>>;
+using OneOrMany = std::variant<std::string, std::vector<std::string>>;
+
+/// Scenes and equilibria, shared and not copied.
+struct ShownKind {
+  static const Kind& kind() {
+    static const Kind kind{"a scene or an equilibrium", "scene|equilibrium", [](lua_State* L, int index) {
+      return object<Scene>(L, index) || object<SceneEquilibrium>(L, index) ? std::string() : describe(L, index);
+    }};
+    return kind;
+  }
+};
+
+const std::vector<std::string>& colour_names() {
+  static const std::vector<std::string> names{"clearance", "curvature", "tension", "twist"};
+  return names;
+}
+
+Schema view_options() {
+  return Schema{
+      option<Colour>("color", "", "What the rods' colour says: \"clearance\", \"curvature\", \"tension\", \"twist\", or {r, g, b} "
+                                  "from 0 to 1; default: clearance when there are obstacles, else curvature"),
+      option<std::vector<std::string>>("ghost", "", "Obstacles to see through, the others are solid; default: all"),
+      option<std::string>("title", "", "On the card"),
+  }
+      .with_list(ShownKind::kind(), "what", "The scene, its equilibrium, or both");
+}
+
+Schema save_options() {
+  return Schema{
+             option<std::array<int, 2>>("size", "pixels", "{width, height}; default {1600, 1200}"),
+             option<std::vector<std::string>>("sheet", "", "Views in rows of two: \"iso\", \"front\", \"top\", \"side\", \"card\"; "
+                                                           "default iso, front, top and card"),
+             option<OneOrMany>("fit", "", "Rod or obstacle, or a list, that fills each view; default: the rods"),
+         } + timeout_schema();
+}
+
+void read_colour(const Options& o, PictureWish& wish) {
+  const Colour colour = o.get<Colour>("color");
+  if (const auto* rgb = std::get_if<std::array<double, 3>>(&colour)) {
+    for (const double part : *rgb)
+      if (part < 0 || part > 1) throw UsageError("view.new: 'color' has " + plain_number(part) + ", expected 0 to 1");
+    wish.colour = RodColour::plain;
+    wish.plain = {float((*rgb)[0]), float((*rgb)[1]), float((*rgb)[2])};
+    return;
+  }
+  const std::string& name = std::get<std::string>(colour);
+  for (std::size_t i = 0; i < colour_names().size(); ++i)
+    if (colour_names()[i] == name) {
+      wish.colour = static_cast<RodColour>(i);
+      return;
+    }
+  throw UsageError("view.new: 'color': unknown " + unknown_name(name, "colours", colour_names()));
+}
+
+void read_shown(lua_State* L, const Options& o, View& view) {
+  const lua_Integer count = o.index() ? luaL_len(L, o.index()) : 0;
+  for (lua_Integer i = 1; i <= count; ++i) {
+    lua_geti(L, o.index(), i);
+    const bool scene = object<Scene>(L, -1) != nullptr;
+    if (scene ? view.scene != nullptr : view.equilibrium != nullptr)
+      throw UsageError(std::string("view.new: got two ") + (scene ? "scenes" : "equilibria") + ", expected at most one of each");
+    if (scene) view.scene = Value<std::shared_ptr<Scene>>::read(L, -1);
+    else view.equilibrium = Value<std::shared_ptr<SceneEquilibrium>>::read(L, -1);
+    lua_pop(L, 1);
+  }
+  if (!view.scene && !view.equilibrium) throw UsageError("view.new: nothing to show; give a scene, its equilibrium, or both");
+  if (!view.scene) view.scene = std::make_shared<Scene>();
+}
+
+View make_view(lua_State* L, const Options& o) {
+  View view;
+  read_shown(L, o, view);
+  const bool obstacles = view.equilibrium ? !view.equilibrium->obstacles.empty() : !view.scene->obstacles().empty();
+  view.wish.colour = obstacles ? RodColour::clearance : RodColour::curvature;
+  if (o.has("color")) read_colour(o, view.wish);
+  view.wish.ghost = o.maybe<std::vector<std::string>>("ghost");
+  view.wish.title = o.maybe<std::string>("title").value_or("");
+  compose_check(*view.scene, view.equilibrium.get(), view.wish);
+  return view;
+}
+
+SavedFile save_view(lua_State* L, const View& view, const std::string& path, const Options& o) {
+  PictureWish wish = view.wish;
+  if (const auto size = o.maybe<std::array<int, 2>>("size")) {
+    wish.width = (*size)[0];
+    wish.height = (*size)[1];
+  }
+  if (const auto sheet = o.maybe<std::vector<std::string>>("sheet")) wish.views = *sheet;
+  if (const auto fit = o.maybe<OneOrMany>("fit")) {
+    if (const std::string* one = std::get_if<std::string>(&*fit)) wish.fit = {*one};
+    else wish.fit = std::get<std::vector<std::string>>(*fit);
+  }
+  const Picture picture = compose_picture(*view.scene, view.equilibrium.get(), wish);
+  const PictureReport report = save_picture(picture, path, run_context(L, o));
+  return {path, report.status, report.seconds};
+}
+
+}  // namespace
+
+void bind_view(lua_State* L) {
+  Class<SavedFile>(L, "A file that was saved")
+      .property("path", "", "Where", [](const SavedFile& f) { return f.path; })
+      .property("ok", "", "It was written", [](const SavedFile& f) { return f.status == Status::solved; })
+      .property("status", "", "\"saved\", \"cancelled\" or \"timeout\"",
+                [](const SavedFile& f) { return f.status == Status::solved ? "saved" : name_of(f.status); })
+      .property("seconds", "s", "Time it took", [](const SavedFile& f) { return f.seconds; })
+      .tostring([](const SavedFile& f) {
+        const bool saved = f.status == Status::solved;
+        return (saved ? "saved " : std::string(name_of(f.status)) + ", not saved: ") + f.path + " (" + quantity(f.seconds, "s") + ")";
+      });
+  Class<View>(L, "A picture to be")
+      .method("save",
+              {.takes = {"path"}, .options = save_options(), .does = "Draws it into a .png; a missing folder is created."},
+              save_view)
+      .tostring([](const View& v) {
+        return Card("view").row("rods", std::to_string(v.equilibrium ? v.equilibrium->rods.size() : 0))
+            .row("obstacles", std::to_string(v.equilibrium ? v.equilibrium->obstacles.size() : v.scene->obstacles().size()))
+            .text();
+      });
+  Module(L, "view", "Pictures")
+      .function("new",
+                {.options = view_options(), .does = "A picture of a scene and its equilibrium; draw it with :save(path)."},
+                make_view);
+}
+
+}  // namespace tendril::lua

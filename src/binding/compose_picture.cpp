@@ -1,0 +1,210 @@
+#include "binding/compose_picture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "base/error.h"
+#include "base/nearest_name.h"
+#include "base/units.h"
+#include "binding/compose_tubes.h"
+
+namespace tendril {
+namespace {
+
+using Box = Eigen::AlignedBox3d;
+
+std::string text(const char* format, double value) {
+  char buffer[64];
+  std::snprintf(buffer, sizeof buffer, format, value);
+  return buffer;
+}
+
+std::string millimetres(double metres) {
+  if (!std::isfinite(metres)) return "none";
+  return text(std::abs(metres) < 0.1 ? "%.3g mm" : "%.4g mm", metres / units::mm);
+}
+
+std::string seconds(double value) { return value < 1 ? text("%.3g ms", 1e3 * value) : text("%.3g s", value); }
+
+/// What a picture shows of the scene, from the equilibrium when there is one.
+struct Shown {
+  const std::vector<PlacedObstacle>& obstacles;
+  const SceneEquilibrium* equilibrium;
+  Box rods;  ///< around the rods' surfaces, or around the holds of a scene that is not solved
+};
+
+Box box_of_tube(const PictureTube& tube) {
+  Box box;
+  for (const Vec3& p : tube.points) box.extend(p);
+  return box.isEmpty() ? box : Box(box.min().array() - tube.radius, box.max().array() + tube.radius);
+}
+
+void add_surfaces(const Shown& shown, const PictureWish& wish, Picture& picture) {
+  for (const PlacedObstacle& obstacle : shown.obstacles) {
+    const std::shared_ptr<const Mesh> mesh = drawn_mesh(obstacle, shown.rods);
+    PictureSurface surface;
+    surface.name = obstacle.name;
+    surface.vertices = mesh->vertices;
+    surface.triangles = mesh->triangles;
+    surface.owner = mesh;
+    surface.pose = obstacle.body.pose;
+    const bool ghost = !wish.ghost || std::count(wish.ghost->begin(), wish.ghost->end(), obstacle.name) > 0;
+    surface.style = ghost ? SurfaceStyle::ghost : SurfaceStyle::solid;
+    picture.surfaces.push_back(std::move(surface));
+  }
+}
+
+PictureHold::Kind kind_of(const Hold& hold) {
+  if (hold.position && hold.orientation) return PictureHold::Kind::clamp;
+  return hold.position ? PictureHold::Kind::pin : PictureHold::Kind::guide;
+}
+
+void add_holds(const Rod& rod, const std::vector<Hold>& holds, const Equilibrium* solved, Picture& picture) {
+  for (const Hold& hold : holds) {
+    PictureHold marker;
+    marker.frame = solved ? solved->frame_at(hold.at) : hold.frame;
+    marker.radius = rod.section_at(hold.at).radius();
+    marker.kind = kind_of(hold);
+    picture.holds.push_back(marker);
+  }
+}
+
+void add_loads(const SolvedRod& rod, Picture& picture) {
+  for (const PointLoad& load : rod.problem.loads) {
+    if (load.force.isZero(0)) continue;
+    PictureArrow arrow;
+    arrow.at = rod.equilibrium.frame_at(load.at).at;
+    arrow.direction = load.force;
+    arrow.label = text("%.3g N", load.force.norm());
+    picture.arrows.push_back(arrow);
+  }
+}
+
+/// The smallest gap of all rods, drawn from surface to surface.
+void add_gap_label(const SceneEquilibrium& eq, const SolvedRod& rod, const Clearance& gap, Picture& picture) {
+  if (gap.obstacle < 0) return;
+  PictureLabel label;
+  const double radius = rod.problem.rod.section_at(gap.s).radius();
+  const double way = (gap.on - gap.at).norm();
+  label.at = way > 0 ? Vec3(gap.at + (gap.on - gap.at) * std::min(1.0, radius / way)) : gap.at;
+  label.to = gap.on;
+  const bool touches = std::abs(gap.value) < 0.01 * radius;
+  label.text = touches ? "touches" : gap.value > 0 ? "gap " + millimetres(gap.value) : "overlap " + millimetres(-gap.value);
+  label.alarm = gap.value < eq.obstacles[gap.obstacle].clearance;
+  picture.labels.push_back(label);
+}
+
+using Rows = std::vector<PictureCard::Row>;
+
+void add_rod_rows(const SceneEquilibrium& eq, const SolvedRod& rod, const Clearance& gap, bool alone, Rows& rows) {
+  const std::string prefix = alone ? "" : rod.name + ": ";
+  rows.push_back({prefix + "length", text("%.4g m", rod.problem.rod.length), false});
+  const double bend = rod.equilibrium.smallest_bend_radius();
+  rows.push_back({prefix + "min. bend radius", bend > 1e3 * rod.problem.rod.length ? "straight" : millimetres(bend), false});
+  if (eq.obstacles.empty()) return;
+  if (gap.obstacle < 0) {
+    rows.push_back({prefix + "min. clearance", "none near", false});
+    return;
+  }
+  const PlacedObstacle& obstacle = eq.obstacles[gap.obstacle];
+  const std::string required = obstacle.clearance > 0 ? " (required " + millimetres(obstacle.clearance) + ")" : "";
+  rows.push_back({prefix + "min. clearance", millimetres(gap.value) + required, gap.value < obstacle.clearance - 1e-6});
+  if (eq.obstacles.size() > 1) rows.push_back({prefix + "nearest", obstacle.name, false});
+}
+
+PictureCard card_of(const SceneEquilibrium& eq, const std::vector<Clearance>& gaps, const std::string& title) {
+  PictureCard card;
+  card.title = title.empty() ? (eq.rods.size() == 1 ? eq.rods.front().name : "equilibrium") : title;
+  card.rows.push_back({"status", eq.ok() ? (eq.stable() ? "solved, stable" : "solved, not stable") : name_of(eq.status()),
+                       !eq.ok() || !eq.stable()});
+  constexpr std::size_t most = 4;  // rods with rows of their own; more would not fit the card
+  for (std::size_t i = 0; i < std::min(most, eq.rods.size()); ++i)
+    add_rod_rows(eq, eq.rods[i], gaps[i], eq.rods.size() == 1, card.rows);
+  if (eq.rods.size() > most) card.rows.push_back({"rods", std::to_string(eq.rods.size()), false});
+  card.rows.push_back({"residual", text("%.2g N", eq.residual()), false});
+  if (const auto error = eq.error())
+    card.rows.push_back({"estimated error", error->valid ? text("%.2g mm", error->value / units::mm) : "not valid", !error->valid});
+  else
+    card.rows.push_back({"estimated error", "not asked for", false});
+  card.rows.push_back({"solved in", seconds(eq.seconds), false});
+  card.rows.push_back({"tendril", TENDRIL_VERSION, false});
+  return card;
+}
+
+std::optional<PictureBox> fit_box(const Shown& shown, const Picture& picture, const std::vector<std::string>& wanted) {
+  if (wanted.empty()) return std::nullopt;
+  Box box;
+  for (const std::string& name : wanted) {
+    std::vector<std::string> names;
+    Box found;
+    for (const PictureTube& tube : picture.tubes) {
+      names.push_back(tube.name);
+      if (tube.name == name) found = box_of_tube(tube);
+    }
+    for (const PictureSurface& surface : picture.surfaces) {
+      names.push_back(surface.name);
+      if (surface.name == name)
+        for (const Vec3& v : surface.vertices) found.extend(surface.pose.at + surface.pose.rotation * v);
+    }
+    if (std::find(names.begin(), names.end(), name) == names.end())
+      throw UsageError("view:save: 'fit': unknown name " + unknown_name(name, "rods and obstacles", names));
+    box.extend(found);
+  }
+  if (box.isEmpty()) box = shown.rods;
+  return PictureBox{box.min(), box.max()};
+}
+
+void add_solved(const SceneEquilibrium& eq, const PictureWish& wish, Picture& picture) {
+  std::vector<Clearance> gaps;
+  std::size_t tightest = 0;
+  for (const SolvedRod& rod : eq.rods) {
+    gaps.push_back(eq.clearance(rod));
+    if (gaps.back().value < gaps[tightest].value) tightest = gaps.size() - 1;
+    add_holds(rod.problem.rod, rod.problem.holds, &rod.equilibrium, picture);
+    add_loads(rod, picture);
+  }
+  if (!eq.rods.empty()) add_gap_label(eq, eq.rods[tightest], gaps[tightest], picture);
+  picture.scale = compose_scale(eq, wish.colour);
+  picture.card = card_of(eq, gaps, wish.title);
+}
+
+}  // namespace
+
+void compose_check(const Scene& scene, const SceneEquilibrium* eq, const PictureWish& wish) {
+  std::vector<std::string> names;
+  for (const PlacedObstacle& obstacle : eq ? eq->obstacles : scene.obstacles()) names.push_back(obstacle.name);
+  if (!wish.ghost) return;
+  for (const std::string& name : *wish.ghost)
+    if (std::find(names.begin(), names.end(), name) == names.end())
+      throw UsageError("view.new: 'ghost': unknown obstacle " + unknown_name(name, "obstacles", names));
+}
+
+Picture compose_picture(const Scene& scene, const SceneEquilibrium* eq, const PictureWish& wish) {
+  compose_check(scene, eq, wish);
+  Picture picture;
+  picture.views = wish.views;
+  picture.width = wish.width;
+  picture.height = wish.height;
+  Shown shown{eq ? eq->obstacles : scene.obstacles(), eq, {}};
+  if (eq) picture.tubes = compose_tubes(*eq, wish);
+  for (const PictureTube& tube : picture.tubes) shown.rods.extend(box_of_tube(tube));
+  if (!eq)
+    for (const auto& rod : scene.rods())
+      for (const Hold& hold : rod->holds()) shown.rods.extend(hold.frame.at);
+  add_surfaces(shown, wish, picture);
+  if (eq) {
+    add_solved(*eq, wish, picture);
+  } else {
+    for (const auto& rod : scene.rods()) add_holds(rod->rod(), rod->holds(), nullptr, picture);
+    picture.card.title = wish.title.empty() ? "scene" : wish.title;
+    picture.card.rows = {{"status", "not solved", false},
+                         {"rods", std::to_string(scene.rods().size()), false},
+                         {"obstacles", std::to_string(scene.obstacles().size()), false},
+                         {"tendril", TENDRIL_VERSION, false}};
+  }
+  picture.fit = fit_box(shown, picture, wish.fit);
+  return picture;
+}
+
+}  // namespace tendril

@@ -1,0 +1,33 @@
+// From a scene and its equilibrium to a picture's plain data. Knows no Lua and draws nothing.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scene/scene.h"
+#include "view/picture.h"
+
+namespace tendril {
+
+/// What the colour of a rod says. plain: PictureWish::plain.
+enum class RodColour { clearance, curvature, tension, twist, plain };
+
+struct PictureWish {
+  RodColour colour = RodColour::clearance;
+  Rgb plain{0.20f, 0.42f, 0.65f};
+  std::optional<std::vector<std::string>> ghost;  ///< these obstacles are ghosted, the others solid; default: all
+  std::string title;
+  std::vector<std::string> views{"iso", "front", "top", "card"};
+  int width = 1600, height = 1200;
+  std::vector<std::string> fit;                   ///< rods and obstacles to fill the views; default: the rods
+};
+
+/// Throws UsageError for obstacles to ghost that are not there.
+void compose_check(const Scene& scene, const SceneEquilibrium* equilibrium, const PictureWish& wish);
+
+/// `equilibrium` null: the scene as it stands, its obstacles and holds without any rod. Throws UsageError for names that
+/// neither the equilibrium nor the scene knows.
+Picture compose_picture(const Scene& scene, const SceneEquilibrium* equilibrium, const PictureWish& wish);
+
+}  // namespace tendril

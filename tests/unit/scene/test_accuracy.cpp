@@ -1,0 +1,60 @@
+#include <catch2/catch.hpp>
+
+#include <atomic>
+#include <cmath>
+
+#include "base/error.h"
+#include "scene/accuracy.h"
+#include "unit/scene/fixtures.h"
+
+using namespace tendril;
+using namespace tendril::testing;
+using Catch::Matchers::Contains;
+
+TEST_CASE("the error falls with the element's order", "[scene][accuracy]") {
+  Scene scene(earth);
+  scene.add(sagging_hose());
+  AccuracyOptions options;
+  options.segments = {10, 20, 40};
+  options.seconds_each = 0;
+  options.solve.error = true;
+  const Accuracy se3 = study_accuracy(scene, options);
+  REQUIRE(se3.status == Status::solved);
+  REQUIRE(se3.rows.size() == 3);
+  CHECK(se3.reference_segments == 160);
+  CHECK(se3.reference_uncertainty < 0.1 * se3.rows.back().error);
+  CHECK(std::isnan(se3.rows[0].order));
+  CHECK(se3.rows[2].order == Approx(4).margin(0.3));
+  for (const AccuracyRow& row : se3.rows) {
+    CAPTURE(row.segments);
+    CHECK(row.seconds > 0);
+    CHECK(row.estimate > row.error / 3);
+    CHECK(row.estimate < row.error * 3);
+  }
+  options.solve.element = Element::staggered;
+  const Accuracy staggered = study_accuracy(scene, options);
+  REQUIRE(staggered.status == Status::solved);
+  CHECK(staggered.rows[2].order == Approx(2).margin(0.2));
+  CHECK(staggered.rows[2].error > 10 * se3.rows[2].error);
+  CHECK(scene.rods().front()->rod().segments == 40);  // untouched
+}
+
+TEST_CASE("an accuracy study rejects what it cannot do and stops when told", "[scene][accuracy]") {
+  Scene scene(earth);
+  AccuracyOptions options;
+  CHECK_THROWS_WITH(study_accuracy(scene, options), Contains("no rods"));
+  scene.add(sagging_hose());
+  options.segments = {};
+  CHECK_THROWS_WITH(study_accuracy(scene, options), Contains("'segments' is empty"));
+  options.segments = {10, 0};
+  CHECK_THROWS_WITH(study_accuracy(scene, options), Contains("has 0"));
+  options.segments = {1'000'000'000};
+  CHECK_THROWS_WITH(study_accuracy(scene, options), Contains("1000000000"));
+  options.segments = {10};
+  std::atomic<bool> cancel{true};
+  RunContext context;
+  context.cancel = &cancel;
+  const Accuracy stopped = study_accuracy(scene, options, context);
+  CHECK(stopped.status == Status::cancelled);
+  CHECK_THAT(stopped.message, Contains("reference"));
+}
