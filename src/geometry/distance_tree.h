@@ -69,7 +69,9 @@ class DistanceTree {
   static Float8 load(const float* at) { return *reinterpret_cast<const Float8*>(at); }
   static Float8 box_distances(const Node& node, const float* p);
   static Float8 triangle_distances(const Leaf& leaf, const float* p);
-  double margin(const Vec3& local) const { return 1.5e-6 * (scale_ + local.cwiseAbs().maxCoeff()); }
+  // Above the rounding of single precision, some 16 units in the last place of the largest coordinate; the little on
+  // top covers squares that underflow.
+  double margin(const Vec3& local) const { return 1.5e-6 * (scale_ + local.cwiseAbs().maxCoeff()) + 1e-15; }
   static float widened(double distance, double margin) {
     const double sum = distance + margin;
     return static_cast<float>(sum * sum * (1 + 1e-6));

@@ -76,8 +76,9 @@ void Mesh::check() const {
   if (triangles.size() >= (1u << 30) || vertices.size() >= (1u << 30))
     throw UsageError(said.str() + "too large; fewer than 2^30 triangles and vertices expected");
   for (std::size_t i = 0; i < vertices.size(); ++i)
-    if (!all_finite(vertices[i])) {
-      said << "vertex " << i + 1 << " is (" << vertices[i].transpose() << "); finite numbers expected";
+    if (!(vertices[i].cwiseAbs().maxCoeff() <= largest_coordinate) || !all_finite(vertices[i])) {
+      said << "vertex " << i + 1 << " is (" << vertices[i].transpose() << "); finite numbers within " << largest_coordinate
+           << " m expected";
       throw UsageError(said.str());
     }
   const int count = static_cast<int>(vertices.size());

@@ -15,8 +15,11 @@ struct Mesh {
   std::vector<Vec3> vertices;
   std::vector<std::array<int, 3>> triangles;
 
-  /// Throws UsageError naming the mesh: no triangles, a vertex that is not finite, an index out of range, more
-  /// triangles than can be counted in 30 bits. Vertices and triangles are counted from 1 in the messages.
+  /// Beyond this (m) the squares of single precision overflow long after rounding has eaten all detail.
+  static constexpr double largest_coordinate = 1e9;
+
+  /// Throws UsageError naming the mesh: no triangles, a vertex that is not finite or farther than largest_coordinate, an
+  /// index out of range, more triangles than can be counted in 30 bits. Messages count vertices and triangles from 1.
   void check() const;
 
   Eigen::AlignedBox3d box() const;  ///< of all vertices that triangles use, m; empty without triangles
