@@ -11,7 +11,10 @@ void strike(lua_State* L, lua_Debug*) {
     return;
   }
   lua_sethook(L, strike, LUA_MASKCOUNT, 1);
-  luaL_error(L, "interrupted");
+  luaL_where(L, 0);  // a hook is no level of the stack: 0 is the function it struck
+  lua_pushliteral(L, "interrupted");
+  lua_concat(L, 2);
+  lua_error(L);
 }
 
 void arm(lua_State* L) { lua_sethook(L, strike, LUA_MASKCOUNT, 1); }

@@ -79,6 +79,7 @@ class LineEditor : public LineReader {
   Line read(const char* prompt) override {
     prompt_ = prompt;
     outcome_ = KeyInput::Got::character;
+    el_set(editor_, EL_PREP_TERM, 1);  // before the prompt is seen: a key typed at once is not the terminal's own
     bracketed_paste(true);
     int count = 0;
     const char* text = el_gets(editor_, &count);

@@ -18,18 +18,22 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(" \t\n") - first + 1);
 }
 
+bool ends_too_early(lua_State* L, int status) {
+  return status == LUA_ERRSYNTAX && std::string_view(lua_tostring(L, -1)).ends_with("<eof>");
+}
+
 /// Compiles `code` as an expression, else as statements. Leaves the function, or the message when it is wrong.
 Loaded load(lua_State* L, const std::string& code) {
   const std::string expression = "return " + code;
-  if (luaL_loadbufferx(L, expression.data(), expression.size(), "=stdin", "t") == LUA_OK) return Loaded::ready;
-  lua_pop(L, 1);
-  const int status = luaL_loadbufferx(L, code.data(), code.size(), "=stdin", "t");
+  int status = luaL_loadbufferx(L, expression.data(), expression.size(), "=stdin", "t");
   if (status == LUA_OK) return Loaded::ready;
-  if (status == LUA_ERRSYNTAX && std::string_view(lua_tostring(L, -1)).ends_with("<eof>")) {
-    lua_pop(L, 1);
-    return Loaded::incomplete;
-  }
-  return Loaded::wrong;
+  const bool begun = ends_too_early(L, status);  // "1 +" can only go on as an expression
+  lua_pop(L, 1);
+  status = luaL_loadbufferx(L, code.data(), code.size(), "=stdin", "t");
+  if (status == LUA_OK) return Loaded::ready;
+  if (!begun && !ends_too_early(L, status)) return Loaded::wrong;
+  lua_pop(L, 1);
+  return Loaded::incomplete;
 }
 
 /// Parts of a pasted block that each compile, or one part with the whole block when it compiles as it is, or does not.
