@@ -25,9 +25,10 @@ namespace {
 
 [[noreturn]] void refuse(const std::string& why) { throw UsageError("chart: " + why); }
 
-bool ends_in(std::string path, const std::string& extension) {
-  std::transform(path.begin(), path.end(), path.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return path.size() > extension.size() && path.compare(path.size() - extension.size(), extension.size(), extension) == 0;
+bool ends_in(const std::string& path, const std::string& wanted) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension == wanted;
 }
 
 /// gnuplot fed by a pipe, its words collected. No shell stands between.

@@ -57,7 +57,7 @@ void add_look(const Chart& chart, const std::string& output, bool svg, std::stri
   text += "set output " + gnuplot_quoted(output) + "\n";
   text += "set encoding utf8\nset border 3 lc rgb '#404040' lw 1.2\nset tics nomirror out scale 0.6 textcolor rgb '#303030'\n"
           "set grid back lc rgb '#dcdcdc' lw 0.8 lt 1\nset rmargin 3\nset key top right reverse Left samplen 2.2 spacing 1.25 textcolor rgb '#303030'\n";
-  if (!chart.title.empty()) text += "set title " + gnuplot_quoted(chart.title) + " font 'DejaVu Sans:Bold," + std::to_string(font) + "' textcolor rgb '#202020'\n";
+  if (!chart.title.empty()) text += "set title " + gnuplot_quoted(chart.title) + " font 'DejaVu Sans" + (svg ? "," : ":Bold,") + std::to_string(font) + "' textcolor rgb '#202020'\n";
   text += "set xlabel " + gnuplot_quoted(chart.x_label) + "\nset ylabel " + gnuplot_quoted(chart.y_label) + "\n";
   if (chart.log_x && chart.kind != ChartKind::bars) text += "set logscale x 10\n";
   if (chart.log_y) text += "set logscale y 10\n";
@@ -90,7 +90,7 @@ void add_references(const Chart& chart, std::string& text) {
   int tag = 1;
   for (const ChartReference& line : chart.references) {
     const bool level = line.across == ChartReference::Across::horizontal;
-    if (!std::isfinite(line.at) || (line.at <= 0 && (level ? chart.log_y : chart.log_x))) continue;
+    if (line.at <= 0 && (level ? chart.log_y : chart.log_x)) continue;
     const std::string at = number(line.at);
     const std::string from = level ? "graph 0, first " + at : "first " + at + ", graph 0";
     const std::string to = level ? "graph 1, first " + at : "first " + at + ", graph 1";
@@ -129,11 +129,18 @@ void add_points(const Chart& chart, const Drawable& data, std::string& text) {
   }
   for (const ChartReference& line : chart.references) {
     const bool level = line.across == ChartReference::Across::horizontal, log = level ? chart.log_y : chart.log_x;
-    if (std::isfinite(line.at) && (!log || line.at > 0)) (level ? y : x).take(line.at);
+    if (!log || line.at > 0) (level ? y : x).take(line.at);
   }
   text += range_text("x", x.low, x.high, chart.log_x, false) + range_text("y", y.low, y.high, chart.log_y, false);
   add_references(chart, text);
   add_plot(parts, text);
+}
+
+/// Names of tics are formats to gnuplot: a percent sign is written twice.
+std::string without_formats(const std::string& text) {
+  std::string plain;
+  for (char c : text) plain += c == '%' ? std::string("%%") : std::string(1, c);
+  return plain;
 }
 
 void add_bars(const Chart& chart, const Drawable& data, std::string& text) {
@@ -156,10 +163,10 @@ void add_bars(const Chart& chart, const Drawable& data, std::string& text) {
   }
   text += "set grid noxtics nomxtics\nset xtics scale 0 (";
   for (std::size_t i = 0; i < most; ++i)
-    text += std::string(i ? ", " : "") + gnuplot_quoted(i < chart.categories.size() ? chart.categories[i] : std::to_string(i + 1)) + " " + std::to_string(i + 1);
+    text += std::string(i ? ", " : "") + gnuplot_quoted(i < chart.categories.size() ? without_formats(chart.categories[i]) : std::to_string(i + 1)) + " " + std::to_string(i + 1);
   text += ")\nset xrange [0.4:" + number(static_cast<double>(most) + 0.6) + "]\n";
   for (const ChartReference& line : chart.references)
-    if (line.across == ChartReference::Across::horizontal && std::isfinite(line.at) && (!chart.log_y || line.at > 0)) y.take(line.at);
+    if (line.across == ChartReference::Across::horizontal && (!chart.log_y || line.at > 0)) y.take(line.at);
   text += range_text("y", y.low, y.high, chart.log_y, true);
   add_references(chart, text);
   add_plot(parts, text);
@@ -167,7 +174,7 @@ void add_bars(const Chart& chart, const Drawable& data, std::string& text) {
 
 void add_histogram(const Chart& chart, const Drawable& data, std::string& text) {
   Span x;
-  std::size_t tallest = 1;
+  double tallest = 1;
   std::vector<std::string> parts;
   const bool many = data.series.size() > 1;
   for (std::size_t i = 0; i < data.series.size(); ++i) {
@@ -183,7 +190,7 @@ void add_histogram(const Chart& chart, const Drawable& data, std::string& text) 
       if (chart.log_y && bins.counts[k] == 0) continue;
       text += number(0.5 * edge(k) + 0.5 * edge(k + 1)) + " " + std::to_string(bins.counts[k]) + " " + number(edge(k)) + " " + number(edge(k + 1)) + "\n";
       x.take(edge(k)), x.take(edge(k + 1));
-      tallest = std::max(tallest, bins.counts[k]);
+      tallest = std::max(tallest, static_cast<double>(bins.counts[k]));
     }
     text += "EOD\n";
     const std::string colour = palette[i % palette.size()];
@@ -191,9 +198,10 @@ void add_histogram(const Chart& chart, const Drawable& data, std::string& text) 
                     " border rgb '#ffffff' lc rgb '" + colour + "' " + title_of(data.series[i].name));
   }
   for (const ChartReference& line : chart.references)
-    if (line.across == ChartReference::Across::vertical && std::isfinite(line.at) && (!chart.log_x || line.at > 0)) x.take(line.at);
+    if (line.across == ChartReference::Across::horizontal) tallest = std::max(tallest, line.at);
+    else if (!chart.log_x || line.at > 0) x.take(line.at);
   text += range_text("x", x.low, x.high, chart.log_x, false);
-  text += "set yrange [" + std::string(chart.log_y ? "0.5" : "0") + ":" + number(1.08 * static_cast<double>(tallest)) + "]\n";
+  text += "set yrange [" + std::string(chart.log_y ? "0.5" : "0") + ":" + number(1.08 * tallest) + "]\n";
   add_references(chart, text);
   add_plot(parts, text);
 }

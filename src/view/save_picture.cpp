@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cctype>
 #include <chrono>
+#include <filesystem>
 
 #include "base/write_file.h"
 #include "view/picture.h"
@@ -9,11 +10,10 @@
 namespace tendril {
 namespace {
 
-bool ends_in_png(std::string path) {
-  if (path.size() < 5) return false;
-  path = path.substr(path.size() - 4);
-  std::transform(path.begin(), path.end(), path.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return path == ".png";
+bool ends_in_png(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension == ".png";
 }
 
 }  // namespace

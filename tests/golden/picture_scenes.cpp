@@ -187,6 +187,70 @@ Picture hose_in_bay() {
   return picture;
 }
 
+Picture hose_behind_solid() {
+  Picture picture;
+  Mesh solid, shell;
+  solid.box({0.05, -0.20, -0.08}, {0.25, -0.10, 0.14});
+  shell.box({-0.28, -0.08, -0.10}, {-0.10, 0.10, 0.12});
+  picture.surfaces.push_back(surface("robot", std::move(solid), SurfaceStyle::solid));
+  picture.surfaces.back().colour = {0.93f, 0.62f, 0.22f};
+  picture.surfaces.push_back(surface("shell", std::move(shell)));
+  PictureTube hose;
+  hose.name = "hose";
+  hose.radius = 0.012;
+  for (int i = 0; i <= 160; ++i) {
+    const double x = -0.42 + 0.84 * i / 160.0;
+    hose.points.push_back({x, 0.03 * std::sin(6 * x), 0.05 * std::cos(9 * x)});
+    hose.values.push_back(-4.05 * std::cos(9 * x) + (i < 20 ? NAN : 0));
+  }
+  picture.holds.push_back({end_frame(hose.points, true), hose.radius, PictureHold::Kind::clamp, ""});
+  picture.arrows.push_back({hose.points.back(), Vec3(0, 0, -1), false, {0.70f, 0.25f, 0.10f}, "12 N"});
+  PicturePath path{"plan", {}, {0.15f, 0.15f, 0.15f}, 1.5, true};
+  for (int i = 0; i <= 40; ++i) path.points.push_back({-0.42 + 0.021 * i, -0.05, 0.10 + 0.02 * std::sin(0.3 * i)});
+  picture.paths.push_back(std::move(path));
+  picture.tubes.push_back(std::move(hose));
+  picture.scale = {ColourMeaning::diverging, "bending about d1", "1/m", std::nullopt, std::nullopt, std::nullopt, LimitSide::none};
+  picture.card.title = "Behind the arm";
+  return picture;
+}
+
+Picture envelope_of_hose() {
+  Picture picture;
+  PictureTube hose;
+  hose.name = "hose";
+  Mesh envelope;
+  for (int i = 0; i <= 120; ++i) {
+    const double t = i / 120.0;
+    hose.points.push_back({0.5 * t, 0.08 * std::sin(3 * t), 0.12 * t * (1 - t) * 4});
+    hose.radii.push_back(t < 0.5 ? 0.010 : 0.016);
+    hose.values.push_back(8 + 6 * std::sin(5 * t));
+  }
+  for (int i = 0; i < 120; i += 12) envelope.sphere(hose.points[i + 6], 0.035 + 0.015 * std::sin(pi * i / 120), 20);
+  picture.surfaces.push_back(surface("envelope", std::move(envelope), SurfaceStyle::veil));
+  picture.surfaces.back().colour = {0.35f, 0.55f, 0.80f};
+  picture.surfaces.back().edges = false;
+  picture.surfaces.back().share = 0.25;
+  picture.holds.push_back({end_frame(hose.points, true), 0.010, PictureHold::Kind::pin, "pin"});
+  picture.holds.push_back({Frame::looking(hose.points[60], hose.points[61] - hose.points[59]), 0.016, PictureHold::Kind::guide, "guide"});
+  picture.tubes.push_back(std::move(hose));
+  picture.scale = {ColourMeaning::magnitude, "curvature", "1/m", 0.0, 16.0, 12.5, LimitSide::above};
+  return picture;
+}
+
+Picture straight_hose() {
+  Picture picture;
+  PictureTube hose;
+  hose.name = "hose";
+  hose.radius = 0.02;
+  hose.points = {{0, 0, 0}, {0, 0.25, 0}, {0, 0.25, 0}, {0, 1, 0}};
+  hose.values = {30, 40, 40, 90};
+  picture.tubes.push_back(std::move(hose));
+  picture.labels.push_back({{0, 0.25, 0.02}, std::nullopt, "30.0 mm", false});
+  picture.scale = {ColourMeaning::clearance, "clearance", "mm", std::nullopt, std::nullopt, 8.0, LimitSide::none};
+  picture.card = {"Straight", {{"length", "1000 mm", false}}};
+  return picture;
+}
+
 Picture hose_over_fine_bay(std::size_t triangles) {
   Picture picture = hose_in_bay();
   Mesh fine;

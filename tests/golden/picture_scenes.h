@@ -28,7 +28,16 @@ PictureSurface surface(std::string name, Mesh mesh, SurfaceStyle style = Surface
 /// A coolant hose through a perforated plate, over a ribbed block, under a cover: clearance with violated parts.
 Picture hose_in_bay();
 
-/// The same over a surface of at least `triangles` triangles.
+/// A hose that runs behind an opaque box and through a closed one, curvature about zero, loads and a planned path.
+Picture hose_behind_solid();
+
+/// An envelope as a veil about a hose whose section varies, curvature with a limit above, a pin and a guide.
+Picture envelope_of_hose();
+
+/// Clearance far above the limit, one label, tube along the line of sight of a view: what a fit must survive.
+Picture straight_hose();
+
+/// hose_in_bay() over a surface of at least `triangles` triangles.
 Picture hose_over_fine_bay(std::size_t triangles);
 
 }  // namespace tendril::scenes

@@ -24,7 +24,8 @@ void draw_card(Canvas& canvas, const Rect& cell, double scale, const PictureCard
   const double margin = 34 * scale, left = cell.x + margin, width = cell.width - 2 * margin;
   double y = cell.y + 30 * scale;
   if (!card.title.empty()) {
-    const double size = 22 * scale;
+    const double wide = canvas.text_width(card.title.substr(0, 1000), 22 * scale, true);
+    const double size = 22 * scale * std::clamp(width / std::max(wide, 1.0), 0.65, 1.0);
     y += canvas.capital_height(size) + 4 * scale;
     canvas.text(canvas.fitted(card.title, size, width, true), {left, y}, {size, ink, true});
     y += 16 * scale;
@@ -62,12 +63,12 @@ void draw_colour_bar(Canvas& canvas, const Rect& place, double scale, const Colo
   canvas.text(canvas.fitted(name, size, place.width, true), {place.x, y}, {size, ink, true, Align::left, 2 * scale});
   y += 18 * scale;
 
-  const Rect bar{place.x, std::round(y), place.width, std::round(16 * scale)};
+  // Whole pixels: no column of the bar is blended with its neighbour.
+  const Rect bar{std::round(place.x), std::round(y), std::round(place.width), std::round(16 * scale)};
   const auto at = [&](double value) { return bar.x + bar.width * (value - range.low) / (range.high - range.low); };
-  for (int column = 0; column < static_cast<int>(std::ceil(bar.width)); ++column) {
-    const double value = range.low + (range.high - range.low) * std::min((column + 0.5) / bar.width, 1.0);
-    const Rect strip{bar.x + column, bar.y, std::min(1.0, bar.width - column), bar.height};
-    canvas.box(strip, range.colour(value));
+  for (int column = 0; column < static_cast<int>(bar.width); ++column) {
+    const double value = range.low + (range.high - range.low) * (column + 0.5) / bar.width;
+    canvas.box({bar.x + column, bar.y, 1, bar.height}, range.colour(value));
   }
   if (range.limit && range.broken != LimitSide::none) {  // stripes where the limit is broken, slanted as on the tubes
     const double cut = std::clamp(at(*range.limit), bar.x, bar.x + bar.width);

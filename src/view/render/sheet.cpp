@@ -68,7 +68,20 @@ void draw_card_cell(Canvas& canvas, const Rect& cell, const Picture& picture) {
   draw_card(canvas, rest, scale, picture.card);
 }
 
-/// Without a card the colour bar, and the title, stand in the first view.
+/// Without a card the colour bar and the title stand at the top of the first view: what they need there, pixels.
+double head_height(const Picture& picture, const Rect& cell) {
+  const double scale = scale_of(cell);
+  return has_values(picture) ? 26 * scale + colour_bar_height(scale) : picture.card.title.empty() ? 0 : 56 * scale;
+}
+
+/// The view fitted below a strip of `head` pixels.
+ViewCamera camera_below(double head, const std::string& view, const std::vector<FitBall>& balls, const Rect& cell) {
+  ViewCamera camera = fitted_camera(view, balls, cell.width, cell.height - head);
+  camera.height = cell.height;
+  camera.centre += 0.5 * head * camera.metres_per_pixel * camera.up;
+  return camera;
+}
+
 std::vector<Rect> draw_bar_in_view(Canvas& canvas, const Rect& cell, const Picture& picture) {
   const double scale = scale_of(cell), width = 0.40 * cell.width, margin = 26 * scale;
   const Rect place{cell.x + cell.width - width - margin, cell.y + 18 * scale, width, colour_bar_height(scale)};
@@ -114,12 +127,13 @@ Image draw_sheet(const Picture& picture, const RunContext& context, PictureRepor
     if (view == "card") {
       draw_card_cell(canvas, cells[i], picture);
     } else {
-      const ViewCamera camera = fitted_camera(view, balls, cells[i].width, cells[i].height);
+      const bool headed = first_view && !card_shown;
+      const ViewCamera camera = camera_below(headed ? head_height(picture, cells[i]) : 0, view, balls, cells[i]);
       const Image drawn = painter.paint(camera, context);
       paste(drawn, cells[i], page);
       std::vector<Rect> taken;
-      if (first_view && !card_shown && has_values(picture)) taken = draw_bar_in_view(canvas, cells[i], picture);
-      if (first_view && !card_shown && !picture.card.title.empty()) draw_title_in_view(canvas, cells[i], picture.card.title);
+      if (headed && has_values(picture)) taken = draw_bar_in_view(canvas, cells[i], picture);
+      if (headed && !picture.card.title.empty()) draw_title_in_view(canvas, cells[i], picture.card.title);
       first_view = false;
       draw_overlay(canvas, cells[i], scale_of(cells[i]), view, camera, drawn, picture, taken);
     }

@@ -54,9 +54,28 @@ Rect draw_triad(Canvas& canvas, const Rect& cell, double scale, const ViewCamera
   return {cell.x, cell.y + cell.height - 100 * scale, 104 * scale, 100 * scale};
 }
 
-Rect draw_scale_bar(Canvas& canvas, const Rect& cell, double scale, double metres_per_pixel) {
+/// How much of a rectangle of the canvas is tube, 0 ... 1, by a grid of probes.
+double tube_share(const Image& drawn, const Rect& cell, const Rect& box) {
+  double sum = 0;
+  for (int i = 0; i <= 12; ++i)
+    for (int k = 0; k <= 4; ++k) {
+      const int x = static_cast<int>(box.x + box.width * i / 12 - cell.x), y = static_cast<int>(box.y + box.height * k / 4 - cell.y);
+      if (x >= 0 && y >= 0 && x < drawn.width && y < drawn.height) sum += drawn.at(x, y)[3] / 255.0;
+    }
+  return sum / 65;
+}
+
+/// At the bottom right, or further left where a tube passes there.
+Rect draw_scale_bar(Canvas& canvas, const Rect& cell, double scale, double metres_per_pixel, const Image& drawn) {
   const double metres = round_length(0.24 * cell.width * metres_per_pixel), pixels = metres / metres_per_pixel;
-  const double right = std::round(cell.x + cell.width - 22 * scale), left = right - pixels, y = std::round(cell.y + cell.height - 24 * scale);
+  const double y = std::round(cell.y + cell.height - 24 * scale);
+  double right = 0, least = 2;
+  for (double share : {1.0, 0.8, 0.62}) {
+    const double end = std::round(cell.x + share * cell.width - 22 * scale);
+    const double hidden = tube_share(drawn, cell, {end - pixels, y - 28 * scale, pixels, 40 * scale});
+    if (hidden < least) least = hidden, right = end;
+  }
+  const double left = right - pixels;
   const double thick = std::max(3 * scale, 1.5), tick = 5 * scale;
   canvas.box({left - 2, y - tick - 2, pixels + 4, thick + 2 * tick + 4}, paper, 0.6, 3);
   canvas.box({left, y, pixels, thick}, ink);
@@ -98,6 +117,7 @@ class Placer {
     canvas_.frame(best, colour, std::max(1.2 * scale_, 1.0), 3 * scale_);
     canvas_.text(text, {best.x + 7 * scale_, best.y + 0.5 * (height + canvas_.capital_height(size))}, {size, colour, false});
     taken_.push_back({best.x - 3 * scale_, best.y - 3 * scale_, width + 6 * scale_, height + 6 * scale_});
+    leaders_.push_back({note.at, end});
   }
 
  private:
@@ -106,14 +126,23 @@ class Placer {
     return px < 0 || py < 0 || px >= drawn_.width || py >= drawn_.height ? 0 : drawn_.at(px, py)[3] / 255.0;
   }
 
+  static bool touches(Point a, Point b, const Rect& box) {
+    for (int i = 0; i <= 24; ++i) {
+      const double x = a.x + (b.x - a.x) * i / 24, y = a.y + (b.y - a.y) * i / 24;
+      if (x >= box.x && x <= box.x + box.width && y >= box.y && y <= box.y + box.height) return true;
+    }
+    return false;
+  }
+
   double cost_of(const Rect& box, Point from) const {
     double cost = 0;
     const double pad = 8 * scale_;
     if (box.x < cell_.x + pad || box.y < cell_.y + pad || box.x + box.width > cell_.x + cell_.width - pad || box.y + box.height > cell_.y + cell_.height - pad) cost += 1e6;
     for (const Rect& other : taken_) cost += box.meets(other) ? 1e4 : 0;
-    for (int i = 0; i <= 12; ++i)
-      for (int k = 0; k <= 4; ++k) cost += 20 * tube_at(box.x + box.width * i / 12, box.y + box.height * k / 4);
+    for (const std::array<Point, 2>& leader : leaders_) cost += touches(leader[0], leader[1], box) ? 3e3 : 0;
+    cost += 1300 * tube_share(drawn_, cell_, box);
     const Point end{box.x + 0.5 * box.width, box.y + 0.5 * box.height};
+    for (const Rect& other : taken_) cost += touches({from.x + 0.3 * (end.x - from.x), from.y + 0.3 * (end.y - from.y)}, end, other) ? 1e3 : 0;
     for (int i = 4; i <= 20; ++i) cost += 3 * tube_at(from.x + (end.x - from.x) * i / 20, from.y + (end.y - from.y) * i / 20);
     return cost;
   }
@@ -123,6 +152,7 @@ class Placer {
   double scale_;
   const Image& drawn_;
   std::vector<Rect> taken_;
+  std::vector<std::array<Point, 2>> leaders_;
 };
 
 }  // namespace
@@ -133,7 +163,7 @@ void draw_overlay(Canvas& canvas, const Rect& cell, double scale, const std::str
   draw_name(canvas, cell, scale, view);
   taken.push_back({cell.x, cell.y, 200 * scale, 44 * scale});
   taken.push_back(draw_triad(canvas, cell, scale, camera));
-  taken.push_back(draw_scale_bar(canvas, cell, scale, camera.metres_per_pixel));
+  taken.push_back(draw_scale_bar(canvas, cell, scale, camera.metres_per_pixel, drawn));
 
   const auto on_page = [&](const Vec3& world) {
     const Vec3 p = camera.project(world);

@@ -115,6 +115,11 @@ class ViewPainter::Tubes {
   GLuint array_ = 0, buffers_[2] = {0, 0};
 };
 
+/// What is drawn at a size on the page: holds and arrows, which get an outline, and paths, which do not.
+struct ViewPainter::Marks {
+  Tubes solids, lines;
+};
+
 ViewPainter::ViewPainter(const Picture& picture, const SceneGeometry& surroundings, const Vec3& origin)
     : picture_(picture), surroundings_(surroundings), origin_(origin), range_(settled_range(picture)), programs_(std::make_unique<Programs>()) {
   for (const PictureTube& tube : picture.tubes) {
@@ -147,7 +152,7 @@ ViewPainter::ViewPainter(const Picture& picture, const SceneGeometry& surroundin
 
 ViewPainter::~ViewPainter() = default;
 
-ViewPainter::Span ViewPainter::depth_span(const ViewCamera& camera, const TubeMesh& marks) const {
+ViewPainter::Span ViewPainter::depth_span(const ViewCamera& camera, const std::vector<const TubeMesh*>& meshes) const {
   double low = INFINITY, high = -INFINITY;
   const auto see = [&](const Eigen::Vector3f& point) {
     const double z = camera.project(point.cast<double>() + origin_).z();
@@ -158,7 +163,7 @@ ViewPainter::Span ViewPainter::depth_span(const ViewCamera& camera, const TubeMe
       const auto pick = [&](int axis) { return (i >> axis & 1 ? surroundings_.high() : surroundings_.low())[axis]; };
       see({pick(0), pick(1), pick(2)});
     }
-  for (const TubeMesh* mesh : {&tube_mesh_, &marks})
+  for (const TubeMesh* mesh : meshes)
     for (const TubeVertex& vertex : mesh->vertices) see(vertex.position);
   if (low > high) low = high = 0;
   const double spare = 0.01 * (high - low) + 8 * camera.metres_per_pixel;
@@ -200,7 +205,7 @@ void ViewPainter::draw_surroundings(const SceneGeometry::Page& page, GLuint cut,
   }
 }
 
-void ViewPainter::draw_tubes(const SceneGeometry::Page& page, const Tubes& marks, const Buffers& buffers) const {
+void ViewPainter::draw_tubes(const SceneGeometry::Page& page, const Marks& marks, const Buffers& buffers) const {
   buffers.to_tube.bind();
   glClearColor(0, 0, 0, 0);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
@@ -221,13 +226,15 @@ void ViewPainter::draw_tubes(const SceneGeometry::Page& page, const Tubes& marks
     Rgb colour;
     float opacity;
   };
-  for (const Hull& hull : {Hull{2.4, {0.99f, 0.99f, 0.985f}, 1}, Hull{1.1, {0.13f, 0.14f, 0.17f}, 1}, Hull{0, {}, 0}}) {
+  constexpr double halo = 2.4, outline = 1.1;
+  for (const Hull& hull : {Hull{halo, {0.99f, 0.99f, 0.985f}, 1}, Hull{outline, {0.13f, 0.14f, 0.17f}, 1}, Hull{0, {}, 0}}) {
     if (hull.pixels > 0) glEnable(GL_CULL_FACE), glCullFace(GL_FRONT);
     else glDisable(GL_CULL_FACE);
     program.set("blow_up", static_cast<float>(hull.pixels * pixel));
     glUniform4f(program.at("flat_colour"), hull.colour.r, hull.colour.g, hull.colour.b, hull.opacity);
     tubes_->draw();
-    marks.draw();
+    marks.solids.draw();
+    if (hull.pixels != outline) marks.lines.draw();
   }
   glDisable(GL_CULL_FACE);
 }
@@ -275,7 +282,7 @@ void ViewPainter::compose(const SceneGeometry::Page& page, GLuint cut, const Buf
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-void ViewPainter::paint_tile(const ViewCamera& camera, const Span& span, const Tubes& marks, const Buffers& buffers) const {
+void ViewPainter::paint_tile(const ViewCamera& camera, const Span& span, const Marks& marks, const Buffers& buffers) const {
   const Cutaway cut = cutaway_of(picture_.tubes, camera, span.nearest, span.range);
   const SceneGeometry::Page page{camera, origin_, span.nearest, span.range, cut};
   const Texture cut_depth(GL_R32F, cut.columns, cut.rows, GL_RED, GL_FLOAT, cut.depth.data(), GL_LINEAR);
@@ -308,13 +315,13 @@ void average_into(const std::vector<std::uint8_t>& samples, int samples_x, int s
 Image ViewPainter::paint(const ViewCamera& camera, const RunContext& context) const {
   const int width = static_cast<int>(camera.width), height = static_cast<int>(camera.height);
   Image image(width, height);
-  TubeMesh mark_mesh;
-  for (const PictureHold& hold : picture_.holds) add_hold(hold, camera, origin_, mark_mesh);
-  for (const PictureArrow& arrow : picture_.arrows) add_arrow(arrow, camera, origin_, mark_mesh);
+  TubeMesh solids, lines;
+  for (const PictureHold& hold : picture_.holds) add_hold(hold, camera, origin_, solids);
+  for (const PictureArrow& arrow : picture_.arrows) add_arrow(arrow, camera, origin_, solids);
   for (const PicturePath& path : picture_.paths)
-    if (path.points.size() >= 2) add_path(path, camera, origin_, mark_mesh);
-  const Span span = depth_span(camera, mark_mesh);
-  const Tubes marks(mark_mesh);
+    if (path.points.size() >= 2) add_path(path, camera, origin_, lines);
+  const Span span = depth_span(camera, {&tube_mesh_, &solids, &lines});
+  const Marks marks{Tubes(solids), Tubes(lines)};
   std::unique_ptr<Buffers> buffers;
   std::vector<std::uint8_t> samples;
   for (int y0 = 0; y0 < height; y0 += tile_pixels)

@@ -31,11 +31,12 @@ class ViewPainter {
     double nearest, range;
   };
   class Tubes;
+  struct Marks;
 
-  Span depth_span(const ViewCamera& camera, const TubeMesh& marks) const;
-  void paint_tile(const ViewCamera& camera, const Span& span, const Tubes& marks, const Buffers& buffers) const;
+  Span depth_span(const ViewCamera& camera, const std::vector<const TubeMesh*>& meshes) const;
+  void paint_tile(const ViewCamera& camera, const Span& span, const Marks& marks, const Buffers& buffers) const;
   void draw_surroundings(const SceneGeometry::Page& page, GLuint cut, const Buffers& buffers) const;
-  void draw_tubes(const SceneGeometry::Page& page, const Tubes& marks, const Buffers& buffers) const;
+  void draw_tubes(const SceneGeometry::Page& page, const Marks& marks, const Buffers& buffers) const;
   void compose(const SceneGeometry::Page& page, GLuint cut, const Buffers& buffers) const;
 
   const Picture& picture_;
