@@ -78,22 +78,30 @@ NewtonOutcome ContactSolver::settle(RodState& state, const RodState& start, Cont
 
 void ContactSolver::remove_overlap(RodState& state, ContactOutcome& out, const RunContext& context) {
   const double enough = contact_.overlap * radius_;
+  double before = std::numeric_limits<double>::infinity();  // deepest overlap at the last update
   while (out.newton.status == Status::solved && !over(out)) {
     terms_.stand_at(state);
-    const bool points_free = terms_.set().deepest() <= enough;
-    if (points_free) {
-      if (out.refinements >= contact_.most_refinements || terms_.refine(state, 0.9 * largest_solved_overlap) == 0) break;
+    const double deepest = terms_.set().deepest();
+    if (deepest <= enough) {
+      // Wider from round to round: the rod may slide on before it rests.
+      const double window = 1.5 * (1 << out.refinements);
+      if (out.refinements >= contact_.most_refinements ||
+          terms_.refine(state, 0.9 * largest_solved_overlap, window) == 0)
+        break;
       ++out.refinements;
     } else {
       if (out.updates >= contact_.most_updates + 2 * out.refinements) break;
+      // An edge that slides from point to point is what keeps single shifts from settling.
+      if (deepest > 0.5 * before) terms_.group_deep_points(state, contact_.overlap);
+      before = deepest;
       terms_.set().update_shifts();
       ++out.updates;
     }
-    const RodState before = state;
+    const RodState start = state;
     out.newton = stage(state, Start::warm, working_tolerance, update_iterations, false, context);
     if (out.newton.status == Status::stalled && !over(out)) {
       ++out.fallbacks;
-      state = before;
+      state = start;
       out.newton = stage(state, Start::warm, working_tolerance, descent_iterations, true, context);
     }
   }

@@ -15,7 +15,7 @@ namespace tendril {
 struct ContactOptions {
   double overlap = 1e-3;      ///< deepest overlap that is left, in radii
   int most_updates = 6;       ///< of the augmented Lagrangian
-  int most_refinements = 3;   ///< rounds of added points
+  int most_refinements = 5;   ///< rounds of added points
 };
 
 /// An overlap beyond this, in radii, is never reported as solved.

@@ -92,7 +92,8 @@ double ContactTerms::allowed(const RodState& state, const std::vector<Vec6>& ste
 }
 
 bool ContactTerms::stiffen(const RodState&, const std::vector<Vec6>&, double) {
-  if (blockades_.empty() || stiffened_ >= most_stiffenings) return false;
+  // Descent measures its steps by the slope of the energy, which the springs would falsify.
+  if (exact_ || blockades_.empty() || stiffened_ >= most_stiffenings) return false;
   ++stiffened_;
   for (const Blockade& b : blockades_) {
     const auto same = std::find_if(springs_.begin(), springs_.end(), [&](const Blockade& s) { return s.point == b.point; });
@@ -160,14 +161,14 @@ ContactTerms::Deepest ContactTerms::deepest_at(const RodState& state) const {
   return deepest;
 }
 
-int ContactTerms::refine(const RodState& state, double most) {
+int ContactTerms::refine(const RodState& state, double most, double window) {
   const VertexShape shape = shape_of(state);
   std::vector<int> intervals;
   for (int i = 0; i + 1 < set_->size(); ++i)
     if (!set_->excluded(i) && !set_->excluded(i + 1) &&
         deepest_between(i, shape).penetration > most * set_->points()[i].radius)
       intervals.push_back(i);
-  const int added = refine_intervals(intervals);
+  const int added = refine_intervals(intervals, window);
   if (added > 0) stand_at(state);
   return added;
 }
@@ -183,17 +184,31 @@ int ContactTerms::refine_around(const std::vector<double>& arc_lengths) {
     if (after->s - s < 1e-9 * length || s - (after - 1)->s < 1e-9 * length) continue;
     intervals.push_back(static_cast<int>(after - points.begin()) - 1);
   }
-  return refine_intervals(intervals);
+  return refine_intervals(intervals, 1.5);
 }
 
-int ContactTerms::refine_intervals(const std::vector<int>& intervals) {
+void ContactTerms::group_deep_points(const RodState& state, double most) {
+  stand_at(state);
+  const std::vector<ContactPoint>& points = set_->points();
+  std::vector<char> grouped = set_->grouped();
+  for (int i = 0; i < set_->size(); ++i) {
+    const PointContact* c = set_->at(i);
+    if (!c || points[i].radius - c->distance <= most * points[i].radius) continue;
+    for (int j = i; j >= 0 && points[i].s - points[j].s <= 1.5 * points[i].radius; --j) grouped[j] = 1;
+    for (int j = i; j < set_->size() && points[j].s - points[i].s <= 1.5 * points[i].radius; ++j) grouped[j] = 1;
+  }
+  set_->set_grouped(grouped);
+  standing_ = false;
+}
+
+int ContactTerms::refine_intervals(const std::vector<int>& intervals, double radii) {
   if (intervals.empty()) return 0;
   const std::vector<ContactPoint>& old = set_->points();
   const int n = set_->size();
   std::vector<int> parts(n - 1, 1);
   for (int i : intervals) {
     // The neighbourhood as well: the rod may slide on before it rests.
-    const double window = 1.5 * old[i].radius, apart = old[i + 1].s - old[i].s;
+    const double window = radii * old[i].radius, apart = old[i + 1].s - old[i].s;
     for (int j = i; j >= 0 && old[i].s - old[j + 1].s < window; --j)
       if (old[j + 1].s - old[j].s > 0.7 * apart) parts[j] = refinement;
     for (int j = i; j + 1 < n && old[j].s - old[i + 1].s < window; ++j)

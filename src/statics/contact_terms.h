@@ -46,16 +46,19 @@ class ContactTerms final : public FurtherTerms {
   };
   Deepest deepest_at(const RodState& state) const;
 
-  /// Adds points around every place where the rod overlaps more than `most` radii between two points: four times as
-  /// many there. Returns how many were added.
-  int refine(const RodState& state, double most);
+  /// Adds points where the rod overlaps more than `most` radii between two points, and `window` radii to both sides: four
+  /// times as many there. They form a group (contact_set.h). Returns how many were added.
+  int refine(const RodState& state, double most, double window = 1.5);
+
+  /// Gives the points around those that overlap more than `most` radii one shift in common.
+  void group_deep_points(const RodState& state, double most);
 
   /// The same around given arc lengths: where an earlier solution had contact between this set's points.
   int refine_around(const std::vector<double>& arc_lengths);
 
  private:
   Deepest deepest_between(int i, const VertexShape& shape) const;
-  int refine_intervals(const std::vector<int>& intervals);
+  int refine_intervals(const std::vector<int>& intervals, double window);
   void replace_set(std::vector<ContactPoint> points, const std::vector<double>& shifts);
   bool near_hold(double s, double radius) const;
 
