@@ -70,7 +70,8 @@ std::string range_text(const char* axis, double low, double high, bool log, bool
     double a = std::log10(low), b = std::log10(high);
     const double spare = std::max(0.06 * (b - a), 0.15);
     a = std::max(a - spare, -307.0), b = std::min(b + spare, 307.0);
-    return std::string("set ") + axis + "range [" + number(std::pow(10, a)) + ":" + number(std::pow(10, b)) + "]\n";
+    const std::string powers = a < -3.5 || b > 5.5 ? std::string("set format ") + axis + " '1e%L'\n" : "";  // not 0.000000010
+    return powers + "set " + axis + "range [" + number(std::pow(10, a)) + ":" + number(std::pow(10, b)) + "]\n";
   }
   const double size = std::max(std::abs(low), std::abs(high));
   double spare = 0.05 * high - 0.05 * low;

@@ -99,3 +99,28 @@ TEST_CASE("a tube keeps its true width on the page") {
   CHECK(dark >= 1);
   CHECK(dark <= 5);
 }
+
+TEST_CASE("large pictures are drawn in tiles without a seam") {
+  // Everything runs straight along x, past the border between two tiles: all columns must be alike.
+  Picture picture;
+  PictureTube hose;
+  hose.radius = 0.02;
+  hose.points = {{0, 0, 0.02}, {1, 0, 0.02}};
+  picture.tubes.push_back(hose);
+  scenes::Mesh bed, roof;
+  bed.box({-1, -0.2, -0.03}, {2, 0.2, 0});
+  roof.box({-1, -0.2, 0.03}, {2, -0.1, 0.05});
+  picture.surfaces = {scenes::surface("bed", bed), scenes::surface("roof", roof)};
+  picture.views = {"top"};
+  picture.width = 2400, picture.height = 300;
+  const Pixels page = read_png(picture_png(picture, {}));
+  const auto at = [&](int x, int y) { return &page.rgb[3 * (static_cast<std::size_t>(y) * page.width + x)]; };
+  int worst = 0, colours = 0;
+  for (int y = 0; y < page.height - 60; ++y) {
+    colours += y > 0 && std::abs(int(at(1200, y)[0]) - int(at(1200, y - 1)[0])) > 20;
+    for (int x = 1560; x < 1640; ++x)
+      for (int k = 0; k < 3; ++k) worst = std::max(worst, std::abs(int(at(x, y)[k]) - int(at(1200, y)[k])));
+  }
+  CHECK(colours >= 4);  // there is something to see
+  CHECK(worst <= 6);    // the grain of ambient occlusion
+}

@@ -111,7 +111,7 @@ Image draw_sheet(const Picture& picture, const RunContext& context, PictureRepor
   report.triangles = prepared.triangles, report.edges = prepared.edges, report.left_out = prepared.left_out;
   watch.step("meshes");
   const SceneGeometry surroundings(std::move(prepared));
-  const ViewPainter painter(picture, surroundings, origin);
+  ViewPainter painter(picture, surroundings, origin);
   watch.step("upload and shaders");
 
   Image page(picture.width, picture.height);

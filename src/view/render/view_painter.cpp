@@ -36,11 +36,13 @@ void set_page(const Program& program, const SceneGeometry::Page& page) {
   glUniformMatrix3fv(program.at("turn"), 1, GL_FALSE, turn.data());
 }
 
-int occlusion_radius(const ViewCamera& camera) {
-  return std::clamp(static_cast<int>(0.06 * std::min(camera.width, camera.height)), 4, tile_margin - 4);
-}
 
 }  // namespace
+
+ViewPainter::Look ViewPainter::look_of(const ViewCamera& camera) {
+  const double size = std::min(camera.width, camera.height);
+  return {std::clamp(0.06 * size, 4.0, tile_margin - 4.0), 0.06 * fine * cut_slope * size};
+}
 
 struct ViewPainter::Programs {
   Program whole{shader::surface_vertex, shader::surface_fragment, "#define KEEP_ALL\n"};
@@ -239,10 +241,10 @@ void ViewPainter::draw_tubes(const SceneGeometry::Page& page, const Marks& marks
   glDisable(GL_CULL_FACE);
 }
 
-void ViewPainter::compose(const SceneGeometry::Page& page, GLuint cut, const Buffers& b) const {
+void ViewPainter::compose(const SceneGeometry::Page& page, const Look& look, GLuint cut, const Buffers& b) const {
   glDisable(GL_DEPTH_TEST);
   const float pixels = static_cast<float>(page.range / page.camera.metres_per_pixel);
-  const auto radius = static_cast<float>(occlusion_radius(page.camera));
+  const auto radius = static_cast<float>(look.occlusion);
 
   b.to_nearest.bind();
   const Program& nearest = programs_->nearest;
@@ -276,19 +278,19 @@ void ViewPainter::compose(const SceneGeometry::Page& page, GLuint cut, const Buf
   int unit = 0;
   for (const auto& [name, texture] : inputs) all.texture(name, unit++, texture);
   all.set("depth_pixels", pixels * fine);
-  all.set("fade", static_cast<float>(0.06 * fine * cut_slope * std::min(page.camera.width, page.camera.height)));
+  all.set("fade", static_cast<float>(look.fade));
   all.set("paper", paper.r, paper.g, paper.b);
   all.set("ink", ink.r, ink.g, ink.b);
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-void ViewPainter::paint_tile(const ViewCamera& camera, const Span& span, const Marks& marks, const Buffers& buffers) const {
+void ViewPainter::paint_tile(const ViewCamera& camera, const Span& span, const Look& look, const Marks& marks, const Buffers& buffers) const {
   const Cutaway cut = cutaway_of(picture_.tubes, camera, span.nearest, span.range);
   const SceneGeometry::Page page{camera, origin_, span.nearest, span.range, cut};
   const Texture cut_depth(GL_R32F, cut.columns, cut.rows, GL_RED, GL_FLOAT, cut.depth.data(), GL_LINEAR);
   draw_surroundings(page, cut_depth.name, buffers);
   draw_tubes(page, marks, buffers);
-  compose(page, cut_depth.name, buffers);
+  compose(page, look, cut_depth.name, buffers);
 }
 
 namespace {
@@ -312,7 +314,7 @@ void average_into(const std::vector<std::uint8_t>& samples, int samples_x, int s
 
 }  // namespace
 
-Image ViewPainter::paint(const ViewCamera& camera, const RunContext& context) const {
+Image ViewPainter::paint(const ViewCamera& camera, const RunContext& context) {
   const int width = static_cast<int>(camera.width), height = static_cast<int>(camera.height);
   Image image(width, height);
   TubeMesh solids, lines;
@@ -321,9 +323,8 @@ Image ViewPainter::paint(const ViewCamera& camera, const RunContext& context) co
   for (const PicturePath& path : picture_.paths)
     if (path.points.size() >= 2) add_path(path, camera, origin_, lines);
   const Span span = depth_span(camera, {&tube_mesh_, &solids, &lines});
+  const Look look = look_of(camera);
   const Marks marks{Tubes(solids), Tubes(lines)};
-  std::unique_ptr<Buffers> buffers;
-  std::vector<std::uint8_t> samples;
   for (int y0 = 0; y0 < height; y0 += tile_pixels)
     for (int x0 = 0; x0 < width; x0 += tile_pixels) {
       if (context.stop()) return image;
@@ -333,16 +334,16 @@ Image ViewPainter::paint(const ViewCamera& camera, const RunContext& context) co
       ViewCamera tile = camera;
       tile.width = w + 2 * margin, tile.height = h + 2 * margin;
       tile.centre += camera.metres_per_pixel * ((x0 + 0.5 * w - 0.5 * width) * camera.right + (0.5 * height - y0 - 0.5 * h) * camera.up);
-      if (!buffers || buffers->width != w + 2 * margin || buffers->height != h + 2 * margin) {
-        buffers.reset();
-        buffers = std::make_unique<Buffers>(w + 2 * margin, h + 2 * margin);
+      if (!buffers_ || buffers_->width != w + 2 * margin || buffers_->height != h + 2 * margin) {
+        buffers_.reset();
+        buffers_ = std::make_unique<Buffers>(w + 2 * margin, h + 2 * margin);
       }
-      paint_tile(tile, span, marks, *buffers);
-      samples.resize(static_cast<std::size_t>(buffers->samples_x) * buffers->samples_y * 4);
-      buffers->to_page.bind();
+      paint_tile(tile, span, look, marks, *buffers_);
+      samples_.resize(static_cast<std::size_t>(buffers_->samples_x) * buffers_->samples_y * 4);
+      buffers_->to_page.bind();
       glPixelStorei(GL_PACK_ALIGNMENT, 1);
-      glReadPixels(0, 0, buffers->samples_x, buffers->samples_y, GL_RGBA, GL_UNSIGNED_BYTE, samples.data());
-      average_into(samples, buffers->samples_x, buffers->samples_y, margin, margin, x0, y0, w, h, image);
+      glReadPixels(0, 0, buffers_->samples_x, buffers_->samples_y, GL_RGBA, GL_UNSIGNED_BYTE, samples_.data());
+      average_into(samples_, buffers_->samples_x, buffers_->samples_y, margin, margin, x0, y0, w, h, image);
     }
   return image;
 }

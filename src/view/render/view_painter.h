@@ -22,7 +22,7 @@ class ViewPainter {
   ~ViewPainter();
 
   /// The view at camera.width x camera.height pixels, in tiles. Stops early, leaving the rest white, when the context says so.
-  Image paint(const ViewCamera& camera, const RunContext& context) const;
+  Image paint(const ViewCamera& camera, const RunContext& context);
 
  private:
   struct Programs;
@@ -30,14 +30,19 @@ class ViewPainter {
   struct Span {
     double nearest, range;
   };
+  /// Lengths that belong to the whole view, whatever the tile: pixels, and samples of depth.
+  struct Look {
+    double occlusion, fade;
+  };
   class Tubes;
   struct Marks;
 
+  static Look look_of(const ViewCamera& camera);
   Span depth_span(const ViewCamera& camera, const std::vector<const TubeMesh*>& meshes) const;
-  void paint_tile(const ViewCamera& camera, const Span& span, const Marks& marks, const Buffers& buffers) const;
+  void paint_tile(const ViewCamera& camera, const Span& span, const Look& look, const Marks& marks, const Buffers& buffers) const;
   void draw_surroundings(const SceneGeometry::Page& page, GLuint cut, const Buffers& buffers) const;
   void draw_tubes(const SceneGeometry::Page& page, const Marks& marks, const Buffers& buffers) const;
-  void compose(const SceneGeometry::Page& page, GLuint cut, const Buffers& buffers) const;
+  void compose(const SceneGeometry::Page& page, const Look& look, GLuint cut, const Buffers& buffers) const;
 
   const Picture& picture_;
   const SceneGeometry& surroundings_;
@@ -48,6 +53,8 @@ class ViewPainter {
   std::unique_ptr<Programs> programs_;
   std::unique_ptr<Tubes> tubes_;
   std::unique_ptr<Texture> palette_, colours_;
+  std::unique_ptr<Buffers> buffers_;    ///< kept from view to view: new ones cost more than drawing
+  std::vector<std::uint8_t> samples_;
 };
 
 }  // namespace tendril::render

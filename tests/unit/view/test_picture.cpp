@@ -211,18 +211,6 @@ TEST_CASE("bad triangles are reported") {
   CHECK(report.triangles == 12);
 }
 
-TEST_CASE("large pictures are drawn in tiles that fit together") {
-  // A tube across the border between tiles: its silhouette runs on without a step.
-  Picture picture = small_picture();
-  picture.tubes[0].points = {{0, 0, 0}, {1, 0, 0}};
-  picture.tubes[0].radius = 0.05;
-  picture.width = 2000, picture.height = 200;
-  const std::string whole = picture_png(picture, {});
-  picture.width = 1500, picture.height = 150;
-  CHECK(picture_png(picture, {}).size() < whole.size());
-  CHECK(whole.size() > 1000);
-}
-
 TEST_CASE("a missing font is named with its package") {
   const auto folder = fresh_folder("fonts");
   std::filesystem::create_directories(folder);
