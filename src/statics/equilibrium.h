@@ -51,7 +51,9 @@ struct Equilibrium {
   int iterations = 0;        ///< factorisations
   double residual = 0;       ///< largest unbalanced force (N) or moment over length (N)
   double last_step = 0;      ///< rotations in rad, positions relative to the length
-  bool stable = false;       ///< no negative eigenvalue of the energy's second derivative
+  /// No negative eigenvalue of the energy's second derivative. Dead moments have no energy: then of its symmetric part,
+  /// which is sufficient, not necessary.
+  bool stable = false;
   int negative_pivots = 0;
   int fallbacks = 0;         ///< 0: the first method solved it
   Energy energy;

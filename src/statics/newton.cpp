@@ -10,6 +10,8 @@ namespace {
 constexpr double largest_step = 1;        // rad, and share of the length
 constexpr double saddle_step = 1e-6;      // a shifted step this small means that the slope is gone but the curvature is not
 constexpr double rough_step = 0.2;        // steps above this leave a wrench too rough for the fourth-order terms
+constexpr double rough_stress = 1;       // and so does a false stress above this
+constexpr double smallest_neutral = 1e-7;  // EI/L^2; shifts from here on tell a neutral direction from a negative one
 constexpr int most_mode_moves = 6;
 constexpr double quadratic_regime = 1e-2; // below this a step predicts the next one
 
@@ -67,7 +69,14 @@ int Newton::factor_positive(const NewtonOptions& options, int& factorisations) {
   if (shift_ > 0) add_shift(shift_);
   int negative = ldlt_.factor(block_);
   ++factorisations;
-  if (!options.stable_only && !ldlt_.broken()) return negative;
+  // Dead moments have no energy: the inertia of the symmetric part says nothing that a shift could mend.
+  const bool any = !options.stable_only || system_.has_moments();
+  if (any && !ldlt_.broken()) return negative;
+  for (double neutral = smallest_neutral; shift_ == 0 && (negative > 0 || ldlt_.broken()) && neutral < system_.neutral_shift(); neutral *= 30) {
+    add_shift(neutral * smallest * (neutral == smallest_neutral ? 1 : 29.0 / 30));
+    negative = ldlt_.factor(block_);
+    ++factorisations;
+  }
   const int first = negative;
   while (negative > 0 || ldlt_.broken()) {
     const double before = shift_;
@@ -76,7 +85,7 @@ int Newton::factor_positive(const NewtonOptions& options, int& factorisations) {
     add_shift(shift_ - before);
     negative = ldlt_.factor(block_);
     ++factorisations;
-    if (!options.stable_only && !ldlt_.broken()) break;
+    if (any && !ldlt_.broken()) break;
   }
   return first;
 }
@@ -170,6 +179,10 @@ NewtonOutcome Newton::run(RodState& state, const NewtonOptions& options, const R
       return out;
     }
     assemble(state, stress);
+    if (stress == Stress::predicted && system_.false_stress() > rough_stress) {
+      stress = Stress::rough;
+      assemble(state, stress);
+    }
     take_out_held(state);
     out.negative_pivots = factor_positive(options, out.iterations);
     if (ldlt_.broken()) return out;
@@ -191,7 +204,7 @@ NewtonOutcome Newton::run(RodState& state, const NewtonOptions& options, const R
       share = armijo_share(state, share);
       if (further_ && share < guarded) share = further_->allowed(state, step_, share);
     }
-    if (!options.descend) system_.predict(step_, share);
+    if (!options.descend) system_.predict(step_, 1);
     if (further_) further_->stepped(state, step_, share);
     state.apply(step_, share);
     out.last_step = share * size;
@@ -199,7 +212,8 @@ NewtonOutcome Newton::run(RodState& state, const NewtonOptions& options, const R
 
     const bool full = share == 1;
     const bool held_in_place = wanted_.empty() || full;
-    if (shift_ == 0 && full && held_in_place && (out.negative_pivots == 0 || !options.stable_only) && round > 0) {
+    const bool exact = stress == Stress::predicted || stress == Stress::actual;
+    if (shift_ == 0 && full && held_in_place && exact && (out.negative_pivots == 0 || !options.stable_only || system_.has_moments())) {
       // Quadratic convergence: what is left is about size^3 / previous^2; a tenfold margin is kept.
       const double left = size < quadratic_regime && previous_step < 10 * quadratic_regime
                               ? 10 * size * size * size / (previous_step * previous_step) : size;

@@ -31,6 +31,11 @@ RodSystem::RodSystem(const RodProblem& problem, RodMesh mesh) : problem_(problem
   for (const RodPart& part : problem.rod.parts)
     softest = std::min({softest, part.section.EI1, part.section.EI2});
   bending_scale_ = softest / (length() * length());
+  double stiffest = 0, shortest = length();
+  for (const RodPart& part : problem.rod.parts) stiffest = std::max(stiffest, part.section.EA);
+  for (const MeshSegment& segment : mesh_.segments) shortest = std::min(shortest, segment.length);
+  const double cells = length() / shortest;
+  neutral_shift_ = std::clamp(1e-15 * stiffest / bending_scale_ * cells * cells, 1e-3, 0.1);
 }
 
 double RodSystem::assemble(const RodState& state, Stress stress, BlockSystem& system) {
@@ -79,6 +84,11 @@ void RodSystem::describe_loads(const RodState& state, Energy& energy) const {
   for (std::size_t i = 0; i < weight_slope_.size(); ++i)
     energy.gravity += weight_slope_[i].dot(state.q[i] * Vec3::UnitZ());
   for (const Force& load : forces_) energy.load -= load.force.dot(state.r[load.node]);
+}
+
+void RodSystem::scale_moments(double share) {
+  for (Moment& load : moments_) load.moment *= share / moment_share_;
+  moment_share_ = share;
 }
 
 std::vector<RodSystem::MomentTerm> RodSystem::moment_terms(const RodState& state) const {

@@ -39,6 +39,8 @@ class RodSystem {
   const RodProblem& problem() const { return problem_; }
   int nodes() const { return nodes_; }
   double length() const { return problem_.rod.length; }
+  /// Shift, in bending_scale(), that lifts a neutral direction above rounding: 1e-3, more for a very stiff stretch.
+  double neutral_shift() const { return neutral_shift_; }
   double bending_scale() const { return bending_scale_; }  ///< smallest EI / L^2, N
   const std::vector<HeldMask>& held() const { return held_; }
   /// Where the held nodes belong.
@@ -63,6 +65,13 @@ class RodSystem {
 
   /// After assemble(): the wrench that the linearised step leads to becomes the predicted one.
   virtual void predict(const std::vector<Vec6>& step, double share) = 0;
+
+  /// Dead moments times `share`, for loading in steps.
+  void scale_moments(double share);
+
+  /// After assemble() with a predicted wrench: how far the actual force is from it, n h^2/(12 EI), the largest over
+  /// segments. Large while bent segments look stretched; the fourth-order correction is quadratic in it.
+  virtual double false_stress() const { return 0; }
 
   /// Stiffness EA and GA no larger than this (N); infinity: the true ones.
   virtual void cap_stretch_stiffness(double limit) = 0;
@@ -92,6 +101,7 @@ class RodSystem {
   RodMesh mesh_;
   int nodes_ = 0;
   double bending_scale_ = 0;
+  double neutral_shift_ = 0;
   std::vector<HeldMask> held_;
   std::vector<Target> targets_;
   std::vector<double> node_length_;
@@ -107,6 +117,7 @@ class RodSystem {
   };
   std::vector<Force> forces_;
   std::vector<Moment> moments_;
+  double moment_share_ = 1;
 };
 
 /// The system of the problem's rod with the element and clamp rule of the options.

@@ -102,6 +102,17 @@ Se3System::Se3System(const RodProblem& problem, RodMesh mesh, bool fourth_order)
   rates_.resize(packs());
 }
 
+double Se3System::false_stress() const {
+  if (!fourth_order_) return 0;
+  double largest = 0;
+  for (int p = 0; p < packs(); ++p) {
+    const V3<Pack> off = actual_[p].n - predicted_[p].n;
+    const Pack scale = segments_[p].h * segments_[p].h * segments_[p].flexibility_phi.x * (1.0 / 12);
+    largest = std::max(largest, largest_lane(scale * scale * dot(off, off)));
+  }
+  return std::sqrt(largest);
+}
+
 void Se3System::cap_stretch_stiffness(double limit) {
   for (int i = 0; i < 4 * packs(); ++i) {
     const Section& section = mesh_.segments[std::min(i, nodes_ - 2)].section;

@@ -81,6 +81,13 @@ NewtonOutcome RodSolver::with_fallbacks(RodState& state, bool warm, const RunCon
     outcome = newton_.run(state, options, context);
     outcome.iterations = spent += outcome.iterations;
   };
+  if (system_->has_moments()) {
+    ++fallbacks;
+    state = start;
+    outcome = load_in_steps(state, context);
+    outcome.iterations += spent;
+    return outcome;
+  }
   // B: down the energy of a rod that stretches easily, then mixed-stress steps on the true one.
   ++fallbacks;
   system_->cap_stretch_stiffness(softened_stiffness(*system_));
@@ -110,6 +117,30 @@ Equilibrium RodSolver::solve_in_contact(const RunContext& context, const Equilib
                                           : outcome.message;
   describe(state, out);
   return out;
+}
+
+NewtonOutcome RodSolver::load_in_steps(RodState& state, const RunContext& context) {
+  NewtonOutcome outcome;
+  int spent = 0;
+  double share = 0, step = 0.1;
+  while (share < 1 && step > 1e-3 && spent < options_.max_iterations) {
+    const double next = std::min(1.0, share + step);
+    system_->scale_moments(next);
+    RodState trial = state;
+    outcome = iterate(trial, share > 0, context);
+    spent += outcome.iterations;
+    if (outcome.status == Status::cancelled || outcome.status == Status::timeout) break;
+    if (outcome.status != Status::solved) {
+      step *= 0.5;
+      continue;
+    }
+    state = trial;
+    share = next;
+    step *= 1.5;
+  }
+  system_->scale_moments(1);
+  outcome.iterations = spent;
+  return outcome;
 }
 
 Equilibrium RodSolver::solve(const RunContext& context, const Equilibrium* from) {

@@ -29,6 +29,7 @@ class RodSolver {
  private:
   NewtonOutcome with_fallbacks(RodState& state, bool warm, const RunContext& context, int& fallbacks);
   Equilibrium solve_in_contact(const RunContext& context, const Equilibrium* from);
+  NewtonOutcome load_in_steps(RodState& state, const RunContext& context);
   void describe(const RodState& state, Equilibrium& out);
 
   SolveOptions options_;
