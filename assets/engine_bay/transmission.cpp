@@ -41,12 +41,23 @@ Mesh shift_tower(const Detail& detail) {
   return mesh;
 }
 
-// Carries a hose over the gearbox: a pressed bridge with a flared trough on it.
+// The trough that a hose lies in, smooth where it touches: it widens upwards, and its two ends bend down and apart.
+Mesh hose_trough(const Frame& frame, const Detail& detail) {
+  const Detail smooth{detail.texture ? 3.0 : 12.0, detail.texture ? 9 * units::deg : 30 * units::deg, detail.texture};
+  const Path across = rounded_path({{-38, 0, 42}, {-24, 0, 26}, {-17, 0, 0}, {17, 0, 0}, {24, 0, 26}, {38, 0, 42}}, 16, smooth);
+  const Mesh straight = sweep(across, rounded_rectangle(3, 84, 1.4, smooth), Ends::capped, smooth, Vec3::UnitY());
+  return placed(mapped(straight, [](const Vec3& p) {
+                  const double past = std::max(0.0, std::abs(p.y()) - 8), bend = past * past / 110;
+                  return Vec3(p.x() * (1 + 0.03 * bend), p.y(), p.z() - bend);
+                }),
+                frame);
+}
+
+// Carries the trough over the gearbox: a pressed bridge.
 Mesh hose_bridge(const Detail& detail) {
-  Mesh mesh = strap({{408, 430, 309}, {408, 462, 309}, {408, 472, 366}, {408, 538, 366}, {408, 548, 309}, {408, 575, 309}}, 46, 4,
+  Mesh mesh = strap({{408, 430, 309}, {408, 462, 309}, {408, 484, 366}, {408, 526, 366}, {408, 548, 309}, {408, 575, 309}}, 46, 4,
                     Vec3::UnitX(), detail);
-  mesh.append(strap({{370, 505, 412}, {384, 505, 396}, {390, 505, 369.5}, {426, 505, 369.5}, {432, 505, 396}, {446, 505, 412}}, 74, 3,
-                    Vec3::UnitY(), detail));
+  mesh.append(hose_trough(Frame::looking({408, 505, 369}, Vec3::UnitZ(), Vec3(0.95, -0.31, 0)), detail));
   return mesh;
 }
 
