@@ -65,7 +65,8 @@ Mesh catalyst(const Detail& detail) {
 // A dimpled sheet over the runners; u along x, v down its bent side.
 Mesh heat_shield(const Detail& detail) {
   const double depth = detail.texture ? 1.6 : 0;
-  return sheet(420, 200, {{{60, 30}, 8}, {{360, 30}, 8}, {{210, 30}, 8}}, detail, [=](double u, double v) {
+  const Detail smooth = detail.texture ? detail.with_edge(3) : detail;
+  return sheet(420, 200, {{{60, 30}, 8}, {{360, 30}, 8}, {{210, 30}, 8}}, smooth, [=](double u, double v) {
     const double bend = smooth_step(60, 130, v);
     const double dimple = depth * std::sin(u * units::pi / 9) * std::sin(v * units::pi / 9);
     return Vec3(575 + u, 640 + v * (1 - 0.45 * bend) + dimple * bend, 508 - 0.55 * bend * (v - 60) + dimple);

@@ -43,7 +43,7 @@ Mesh shift_tower(const Detail& detail) {
 
 // The trough that a hose lies in, smooth where it touches: it widens upwards, and its two ends bend down and apart.
 Mesh hose_trough(const Frame& frame, const Detail& detail) {
-  const Detail smooth{detail.texture ? 3.0 : 12.0, detail.texture ? 9 * units::deg : 30 * units::deg, detail.texture};
+  const Detail smooth{detail.texture ? 3.0 : 14.0, detail.texture ? 9 * units::deg : 30 * units::deg, detail.texture};
   const Path across = rounded_path({{-38, 0, 42}, {-24, 0, 26}, {-17, 0, 0}, {17, 0, 0}, {24, 0, 26}, {38, 0, 42}}, 16, smooth);
   const Mesh straight = sweep(across, rounded_rectangle(3, 84, 1.4, smooth), Ends::capped, smooth, Vec3::UnitY());
   return placed(mapped(straight, [](const Vec3& p) {
