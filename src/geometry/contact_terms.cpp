@@ -1,5 +1,6 @@
 // The contact terms of Surroundings: one for a solid, the inclusion-exclusion sum of the triangles in range for a mesh.
 
+#include <algorithm>
 #include <cmath>
 
 #include "geometry/closest_point.h"
@@ -46,6 +47,17 @@ struct MeshTerms {
     add(weight, d, normal, (Mat3::Identity() - normal * normal.transpose()) / d);
   }
 
+  // A foot on a side, or outside it by no more than rounding, counts as within the face: else a point above the side
+  // between two faces of one plane would find both of them ending there and feel a ridge that is not there.
+  bool within_face(const TriangleFoot& foot, const Vec3 (&corner)[3]) const {
+    if (foot.inside) return true;
+    const Vec3 one = corner[1] - corner[0], other = corner[2] - corner[0], normal = one.cross(other);
+    const double nn = normal.squaredNorm(), longest = std::max(one.squaredNorm(), other.squaredNorm());
+    if (!(nn > 1e-24 * longest * longest)) return false;
+    const double height = normal.dot(p - corner[0]);
+    return foot.squared * nn - height * height <= 1e-14 * foot.squared * nn;
+  }
+
   // Where the closest point of the face is that of a side, or that of a side is a corner, the distances are one: their
   // weights are added up first, and mostly cancel.
   void add_triangle(const Vec3 (&corner)[3], const FeatureWeights& weights) const {
@@ -53,18 +65,19 @@ struct MeshTerms {
     if (!(foot.squared < reach * reach)) return;
     double side[3] = {weights.edge[0], weights.edge[1], weights.edge[2]};
     double vertex[3] = {weights.vertex[0], weights.vertex[1], weights.vertex[2]};
-    if (!foot.inside) side[foot.side] += weights.face;
+    const bool inside = within_face(foot, corner);
+    if (!inside) side[foot.side] += weights.face;
     for (int k = 0; k < 3; ++k)
       if (foot.sides[k].end >= 0) {
         vertex[(k + foot.sides[k].end) % 3] += side[k];
         side[k] = 0;
       }
-    const bool any = foot.inside || side[0] != 0 || side[1] != 0 || side[2] != 0 || vertex[0] != 0 || vertex[1] != 0 ||
+    const bool any = inside || side[0] != 0 || side[1] != 0 || side[2] != 0 || vertex[0] != 0 || vertex[1] != 0 ||
                      vertex[2] != 0;
     if (!any) return;
     const Vec3 plane = (corner[1] - corner[0]).cross(corner[2] - corner[0]).stableNormalized();
     const Vec3 across = plane.squaredNorm() > 0.5 ? plane : Vec3::UnitZ();
-    if (foot.inside) add_face(weights.face, foot, corner[0], across);
+    if (inside) add_face(weights.face, foot, corner[0], across);
     for (int k = 0; k < 3; ++k) {
       if (side[k] != 0) add_edge(side[k], foot.sides[k], corner[(k + 1) % 3] - corner[k], across);
       if (vertex[k] != 0) add_vertex(vertex[k], corner[k], across);

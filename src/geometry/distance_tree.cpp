@@ -10,6 +10,9 @@ namespace {
 
 using simd::Float8;
 
+// The boxes of children that are not there are infinitely far away.
+constexpr float largest = std::numeric_limits<float>::max();
+
 struct Vector8 {
   Float8 x, y, z;
 };
@@ -96,13 +99,26 @@ DistanceTree::Nearest DistanceTree::closest(const Vec3& p, double limit, int hin
     best.distance = std::min(best.distance, limit);
   }
   Shortlist shortlist(widened(best.distance, slack), slack);
-  Candidate stack[stack_size];
-  int top = 0;
-  stack[top++] = {0, 0};
-  while (top > 0) {
-    const Candidate next = stack[--top];
-    if (next.squared > shortlist.bound) continue;
-    if (next.index < 0) {
+  Candidate stack[stack_size], next{0, 0};
+  for (int top = 0;; next = stack[--top]) {
+    while (next.index >= 0 && next.squared <= shortlist.bound) {
+      const Node& node = nodes_[next.index];
+      const Float8 squared = box_distances(node, q);
+      unsigned near = simd::bits(squared <= simd::all(std::min(shortlist.bound, largest)));
+      if (near == 0) {
+        next.squared = std::numeric_limits<float>::infinity();
+        break;
+      }
+      // Down the nearest child; the others wait.
+      const float least = simd::smallest(squared);
+      const int first = __builtin_ctz(simd::bits(squared == simd::all(least)));
+      for (near &= ~(1u << first); near; near &= near - 1) {
+        const int lane = __builtin_ctz(near);
+        stack[top++] = {squared[lane], node.child[lane]};
+      }
+      next = {least, node.child[first]};
+    }
+    if (next.index < 0 && next.squared <= shortlist.bound) {
       const Leaf& leaf = leaves_[~next.index];
       const Float8 squared = triangle_distances(leaf, q);
       shortlist.narrow(simd::smallest(squared));
@@ -111,19 +127,8 @@ DistanceTree::Nearest DistanceTree::closest(const Vec3& p, double limit, int hin
         if (leaf.triangle[lane] >= 0) shortlist.add({squared[lane], leaf.triangle[lane]});
       }
       if (shortlist.full()) settle(p, shortlist, best);
-      continue;
     }
-    const Node& node = nodes_[next.index];
-    const Float8 squared = box_distances(node, q);
-    const int first = top;
-    for (unsigned near = simd::bits(squared <= simd::all(shortlist.bound)); near; near &= near - 1) {
-      const int lane = __builtin_ctz(near);
-      if (node.child[lane] == 0) continue;  // the root is no one's child: an empty place
-      const Candidate child{squared[lane], node.child[lane]};
-      int at = top++;
-      for (; at > first && stack[at - 1].squared < child.squared; --at) stack[at] = stack[at - 1];
-      stack[at] = child;
-    }
+    if (top == 0) break;
   }
   settle(p, shortlist, best);
   if (best.triangle < 0) best.distance = limit;
@@ -156,13 +161,8 @@ std::optional<DistanceTree::Hit> DistanceTree::ray(const Vec3& a, const Vec3& b)
   if (!all_finite(a) || !all_finite(b)) return first;
   const Vec3 local = a - middle_, way = b - a;
   const float slack = static_cast<float>(margin(local) + margin(b - middle_));
-  Float8 origin[3], inverse[3];
-  for (int k = 0; k < 3; ++k) {
-    origin[k] = simd::all(static_cast<float>(local[k]));
-    // A way along a coordinate plane: a huge slope instead of an infinite one, which would make NaN of 0 * infinity.
-    const float slope = static_cast<float>(way[k]);
-    inverse[k] = simd::all(1 / (std::abs(slope) > 1e-20f ? slope : std::copysign(1e-20f, slope)));
-  }
+  float start[3], along[3];
+  for (int k = 0; k < 3; ++k) start[k] = static_cast<float>(local[k]), along[k] = static_cast<float>(way[k]);
   Candidate stack[stack_size];
   int top = 0;
   stack[top++] = {0, 0};
@@ -176,10 +176,13 @@ std::optional<DistanceTree::Hit> DistanceTree::ray(const Vec3& a, const Vec3& b)
       continue;
     }
     const Node& node = nodes_[next.index];
+    const Turned origin = turned(node, start), slope = turned(node, along);
     Float8 enter = simd::all(0), leave = simd::all(bound);
     for (int k = 0; k < 3; ++k) {
-      const Float8 low = (load(node.low[k]) - slack - origin[k]) * inverse[k];
-      const Float8 high = (load(node.high[k]) + slack - origin[k]) * inverse[k];
+      // A way along a plane of the boxes: a huge inverse instead of an infinite one, which would make NaN of 0 * infinity.
+      const float inverse = 1 / (std::abs(slope.at[k]) > 1e-20f ? slope.at[k] : std::copysign(1e-20f, slope.at[k]));
+      const Float8 low = (load(node.low[k]) - (slack + origin.at[k])) * inverse;
+      const Float8 high = (load(node.high[k]) + (slack - origin.at[k])) * inverse;
       enter = simd::larger(enter, simd::smaller(low, high));
       leave = simd::smaller(leave, simd::larger(low, high));
     }

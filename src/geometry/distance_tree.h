@@ -2,7 +2,8 @@
 //
 // Eight children a node and up to eight triangles a leaf, stored in single precision about the mesh's middle, so that
 // eight boxes or eight triangles are judged at once. Single precision only rejects, with a margin above its rounding;
-// what is left is measured in double precision on the mesh itself, so that every answer is exact.
+// what is left is measured in double precision on the mesh itself, so that every answer is exact. Boxes around few
+// triangles are turned to lie flat on them: seen from above, sloping ground then fills its boxes no less than level.
 #pragma once
 
 #include <cmath>
@@ -51,8 +52,9 @@ class DistanceTree {
   using Float8 = simd::Float8;
 
   struct alignas(32) Node {
-    float low[3][8], high[3][8];
-    int child[8];  ///< a node, or ~leaf
+    float low[3][8], high[3][8];  ///< of the children's boxes, along the node's axes, m
+    int child[8];                 ///< a node, or ~leaf
+    float axes[3][4];             ///< unit vectors, the last of four places unused
   };
   struct alignas(32) Leaf {
     float corner[3][8], side[3][8], other[3][8];  ///< first corner, and the second and third from there, m
@@ -67,6 +69,10 @@ class DistanceTree {
   static constexpr int stack_size = 512;  // seven a level; the builder keeps the depth below 64
 
   static Float8 load(const float* at) { return *reinterpret_cast<const Float8*>(at); }
+  struct Turned {
+    float at[3];
+  };
+  static Turned turned(const Node& node, const float* v);
   static Float8 box_distances(const Node& node, const float* p);
   static Float8 triangle_distances(const Leaf& leaf, const float* p);
   // Above the rounding of single precision, some 16 units in the last place of the largest coordinate; the little on
@@ -88,11 +94,18 @@ class DistanceTree {
   std::vector<Leaf> leaves_;
 };
 
+inline DistanceTree::Turned DistanceTree::turned(const Node& node, const float* v) {
+  Turned result;
+  for (int k = 0; k < 3; ++k) result.at[k] = node.axes[k][0] * v[0] + node.axes[k][1] * v[1] + node.axes[k][2] * v[2];
+  return result;
+}
+
 // Squared distances to eight boxes; infinite for children that are not there.
 inline DistanceTree::Float8 DistanceTree::box_distances(const Node& node, const float* p) {
+  const Turned turned_p = turned(node, p);
   Float8 sum = simd::all(0);
   for (int k = 0; k < 3; ++k) {
-    const Float8 at = simd::all(p[k]);
+    const Float8 at = simd::all(turned_p.at[k]);
     const Float8 out = simd::larger(simd::larger(load(node.low[k]) - at, at - load(node.high[k])), simd::all(0));
     sum += out * out;
   }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 #include "geometry/distance_tree.h"
 
@@ -13,6 +14,8 @@ namespace {
 constexpr int leaf_size = 8, bins = 16;
 // Below this depth ranges are halved, so that no arrangement of triangles makes the tree deep.
 constexpr int balanced_depth = 24;
+// Nodes of no more triangles than this have axes of their own.
+constexpr int turned_size = 600;
 constexpr float far = std::numeric_limits<float>::infinity();
 
 struct Box {
@@ -102,20 +105,70 @@ class TreeBuilder {
     }
     const int index = static_cast<int>(tree_.nodes_.size());
     tree_.nodes_.emplace_back();
-    for (int i = 0; i < 8; ++i) {
-      // An empty place is infinitely far away.
-      const Box box = i < count ? parts[i].box : Box{};
-      for (int k = 0; k < 3; ++k) {
-        tree_.nodes_[index].low[k][i] = box.low[k];
-        tree_.nodes_[index].high[k][i] = box.high[k];
-      }
-      tree_.nodes_[index].child[i] = 0;
-    }
+    set_boxes(tree_.nodes_[index], whole, parts, count);
     for (int i = 0; i < count; ++i) {
       const int child = parts[i].count() > leaf_size ? node(parts[i], depth + 1) : leaf(parts[i]);
       tree_.nodes_[index].child[i] = child;
     }
     return index;
+  }
+
+  // Sets the axes and the children's boxes; an empty place is infinitely far away.
+  void set_boxes(DistanceTree::Node& node, const Range& whole, const std::array<Range, 8>& parts, int count) const {
+    const std::optional<Mat3> axes = whole.count() <= turned_size ? flat_axes(whole) : std::nullopt;
+    for (int k = 0; k < 3; ++k)
+      for (int j = 0; j < 4; ++j) node.axes[k][j] = j == 3 ? 0 : axes ? static_cast<float>((*axes)(k, j)) : k == j;
+    for (int i = 0; i < 8; ++i) {
+      const Box box = i >= count ? Box{} : axes ? turned_box(parts[i], *axes) : parts[i].box;
+      for (int k = 0; k < 3; ++k) {
+        node.low[k][i] = box.low[k];
+        node.high[k][i] = box.high[k];
+      }
+      node.child[i] = 0;
+    }
+  }
+
+  Vec3 area_vector(int item) const {
+    const auto& t = mesh_.triangles[items_[item].triangle];
+    const Vec3& corner = mesh_.vertices[t[0]];
+    return (mesh_.vertices[t[1]] - corner).cross(mesh_.vertices[t[2]] - corner);
+  }
+
+  // Axes (as rows) of which the last is the mean normal of the triangles, either side counting as the outside; nothing
+  // where they face all ways.
+  std::optional<Mat3> flat_axes(const Range& range) const {
+    Vec3 sum = Vec3::Zero();
+    double whole = 0;
+    for (int i = range.begin; i < range.end; ++i) {
+      const Vec3 area = area_vector(i);
+      sum += area.dot(sum) < 0 ? Vec3(-area) : area;
+      whole += area.norm();
+    }
+    if (!(sum.norm() > 0.7 * whole)) return std::nullopt;
+    Mat3 axes;
+    const Vec3 normal = sum.normalized();
+    int least;
+    normal.cwiseAbs().minCoeff(&least);
+    axes.row(2) = normal;
+    axes.row(0) = normal.cross(Vec3::Unit(least)).normalized();
+    axes.row(1) = normal.cross(Vec3(axes.row(0)));
+    return axes;
+  }
+
+  Box turned_box(const Range& range, const Mat3& axes) const {
+    Vec3 low = Vec3::Constant(far), high = -low;
+    for (int i = range.begin; i < range.end; ++i)
+      for (int v : mesh_.triangles[items_[i].triangle]) {
+        const Vec3 at = axes * (mesh_.vertices[v] - tree_.middle_);
+        low = low.cwiseMin(at);
+        high = high.cwiseMax(at);
+      }
+    Box box;
+    for (int k = 0; k < 3; ++k) {
+      box.low[k] = static_cast<float>(low[k]);
+      box.high[k] = static_cast<float>(high[k]);
+    }
+    return box;
   }
 
   int leaf(const Range& range) {
