@@ -214,9 +214,11 @@ NewtonOutcome Newton::run(RodState& state, const NewtonOptions& options, const R
     const bool held_in_place = wanted_.empty() || full;
     const bool exact = stress == Stress::predicted || stress == Stress::actual;
     if (shift_ == 0 && full && held_in_place && exact && (out.negative_pivots == 0 || !options.stable_only || system_.has_moments())) {
-      // Quadratic convergence: what is left is about size^3 / previous^2; a tenfold margin is kept.
+      // What is left: about size^3 / previous^2 if convergence is quadratic, with a tenfold margin; but the predicted
+      // wrench is only right to first order in the step before, which leaves about size * previous.
       const double left = size < quadratic_regime && previous_step < 10 * quadratic_regime
-                              ? 10 * size * size * size / (previous_step * previous_step) : size;
+                              ? 10 * size * size * size / (previous_step * previous_step) + 0.3 * size * previous_step
+                              : size;
       if (std::min(size, left) < options.tolerance) {
         out.status = Status::solved;
         return out;
