@@ -293,3 +293,17 @@ TEST_CASE("contact set: the shift keeps the force and takes over the penetration
   CHECK(set.shifts()[0] == 0);
   CHECK(!set.any());
 }
+
+TEST_CASE("contact energy: exactly above the side between two faces of one plane there is no ridge") {
+  const ContactLaw law = ContactLaw::for_overlap(3.0, 0.015, 0.3);
+  const TriangleSheet sheet = folded_sheet(3.14159265358979323846, 2);
+  for (const Vec3& x : {Vec3(0.1, 0.02, 0.012), Vec3(0, 0.02, 0.012), Vec3(0, 0.4 / 3 - 0.2, 0.012), Vec3(0.05, -0.1, 0.012)}) {
+    std::vector<DistanceTerm> terms;
+    sheet.terms(x, reach, terms);
+    const PointContact c = contact_at(terms, reach, 1, law);
+    const Mat3 hessian = c.material + c.curvature;
+    CHECK(hessian(0, 0) > -1e-9 * hessian(2, 2));
+    CHECK(hessian(1, 1) > -1e-9 * hessian(2, 2));
+    CHECK(c.gradient.z() == Approx(-law.at(reach - 0.012).slope));
+  }
+}

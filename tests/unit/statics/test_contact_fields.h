@@ -101,8 +101,10 @@ class TriangleSheet : public ContactField {
     const Vec3 &a = vertices_[t[0]], &b = vertices_[t[1]], &c = vertices_[t[2]];
     const Vec3 n = (b - a).cross(c - a).normalized();
     const Vec3 foot = p - n.dot(p - a) * n;
-    inside = n.dot((b - a).cross(foot - a)) > 0 && n.dot((c - b).cross(foot - b)) > 0 &&
-             n.dot((a - c).cross(foot - c)) > 0;
+    // A foot on a side, but for rounding, lies within: else two faces of one plane would feign a ridge between them.
+    const double rounding = -1e-12 * (b - a).cross(c - a).norm();
+    inside = n.dot((b - a).cross(foot - a)) > rounding && n.dot((c - b).cross(foot - b)) > rounding &&
+             n.dot((a - c).cross(foot - c)) > rounding;
     if (inside) return foot;
     Vec3 best = closest_on_segment(p, a, b);
     for (const Vec3& q : {closest_on_segment(p, b, c), closest_on_segment(p, c, a)})
