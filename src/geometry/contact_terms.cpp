@@ -1,8 +1,8 @@
 // The contact terms of Surroundings: one for a solid, the inclusion-exclusion sum of the triangles in range for a mesh.
 
-#include <algorithm>
 #include <cmath>
 
+#include "base/units.h"
 #include "geometry/closest_point.h"
 #include "geometry/surroundings.h"
 
@@ -13,7 +13,10 @@ namespace {
 // Nearer than this to a primitive (relative to the range) the direction away from it is lost in rounding.
 constexpr double lost_direction = 1e-12;
 
-// Collects the terms of one mesh at one point and turns them into world axes.
+// Feet nearer together than 1e-7 of the distance are in one place; this is the square.
+constexpr double same_place = 1e-14;
+
+// Collects the terms of one mesh at one point, measured in the mesh's axes and told in world axes.
 struct MeshTerms {
   const Vec3& p;  ///< in the mesh's axes
   double reach;   ///< m, offset included
@@ -22,40 +25,29 @@ struct MeshTerms {
   int obstacle;
   std::vector<DistanceTerm>& out;
 
+  // `normal` is in world axes here, and so are the directions that Hessians are made of: cheaper than turning a matrix.
   void add(double weight, double distance, const Vec3& normal, const Mat3& hessian) const {
-    const Mat3 turned = axes * hessian * axes.transpose();
-    out.push_back({weight, distance - offset, axes * normal, turned, obstacle});
+    out.push_back({weight, distance - offset, normal, hessian, obstacle});
   }
 
   // `across`: the unit normal of the triangle's plane, which also stands for the direction away from an edge or a
   // vertex where p lies on it.
   void add_face(double weight, const TriangleFoot& foot, const Vec3& corner, const Vec3& across) const {
-    add(weight, std::sqrt(foot.squared), across.dot(p - corner) < 0 ? Vec3(-across) : across, Mat3::Zero());
+    add(weight, std::sqrt(foot.squared), axes * (across.dot(p - corner) < 0 ? Vec3(-across) : across), Mat3::Zero());
   }
   void add_edge(double weight, const SegmentFoot& foot, const Vec3& along, const Vec3& across) const {
     const double d = std::sqrt(foot.squared);
     if (!(d < reach)) return;
-    if (!(d > lost_direction * reach)) return add(weight, d, across, Mat3::Zero());
-    const Vec3 normal = (p - foot.point) / d, beside = normal.cross(along).normalized();
-    add(weight, d, normal, beside * beside.transpose() / d);
+    if (!(d > lost_direction * reach)) return add(weight, d, axes * across, Mat3::Zero());
+    const Vec3 normal = (p - foot.point) / d, beside = axes * normal.cross(along).normalized();
+    add(weight, d, axes * normal, beside * (beside / d).transpose());
   }
   void add_vertex(double weight, const Vec3& vertex, const Vec3& across) const {
     const double d = (p - vertex).norm();
     if (!(d < reach)) return;
-    if (!(d > lost_direction * reach)) return add(weight, d, across, Mat3::Zero());
-    const Vec3 normal = (p - vertex) / d;
+    if (!(d > lost_direction * reach)) return add(weight, d, axes * across, Mat3::Zero());
+    const Vec3 normal = axes * ((p - vertex) / d);
     add(weight, d, normal, (Mat3::Identity() - normal * normal.transpose()) / d);
-  }
-
-  // A foot on a side, or outside it by no more than rounding, counts as within the face: else a point above the side
-  // between two faces of one plane would find both of them ending there and feel a ridge that is not there.
-  bool within_face(const TriangleFoot& foot, const Vec3 (&corner)[3]) const {
-    if (foot.inside) return true;
-    const Vec3 one = corner[1] - corner[0], other = corner[2] - corner[0], normal = one.cross(other);
-    const double nn = normal.squaredNorm(), longest = std::max(one.squaredNorm(), other.squaredNorm());
-    if (!(nn > 1e-24 * longest * longest)) return false;
-    const double height = normal.dot(p - corner[0]);
-    return foot.squared * nn - height * height <= 1e-14 * foot.squared * nn;
   }
 
   // Where the closest point of the face is that of a side, or that of a side is a corner, the distances are one: their
@@ -63,25 +55,75 @@ struct MeshTerms {
   void add_triangle(const Vec3 (&corner)[3], const FeatureWeights& weights) const {
     const TriangleFoot foot = closest_on_triangle(p, corner[0], corner[1], corner[2]);
     if (!(foot.squared < reach * reach)) return;
-    double side[3] = {weights.edge[0], weights.edge[1], weights.edge[2]};
-    double vertex[3] = {weights.vertex[0], weights.vertex[1], weights.vertex[2]};
-    const bool inside = within_face(foot, corner);
-    if (!inside) side[foot.side] += weights.face;
-    for (int k = 0; k < 3; ++k)
-      if (foot.sides[k].end >= 0) {
-        vertex[(k + foot.sides[k].end) % 3] += side[k];
-        side[k] = 0;
-      }
-    const bool any = inside || side[0] != 0 || side[1] != 0 || side[2] != 0 || vertex[0] != 0 || vertex[1] != 0 ||
-                     vertex[2] != 0;
-    if (!any) return;
     const Vec3 plane = (corner[1] - corner[0]).cross(corner[2] - corner[0]).stableNormalized();
-    const Vec3 across = plane.squaredNorm() > 0.5 ? plane : Vec3::UnitZ();
-    if (inside) add_face(weights.face, foot, corner[0], across);
+    Shares shares;
+    share_face(weights.face, corner, foot, plane, shares);
     for (int k = 0; k < 3; ++k) {
-      if (side[k] != 0) add_edge(side[k], foot.sides[k], corner[(k + 1) % 3] - corner[k], across);
-      if (vertex[k] != 0) add_vertex(vertex[k], corner[k], across);
+      share_side(weights.edge[k], k, corner, foot, shares);
+      shares.vertex[k] += weights.vertex[k];
     }
+    const Vec3 across = plane.squaredNorm() > 0.5 ? plane : Vec3::UnitZ();
+    if (shares.face != 0) add_face(shares.face, foot, corner[0], across);
+    for (int k = 0; k < 3; ++k) {
+      if (shares.side[k] != 0) add_edge(shares.side[k], foot.sides[k], corner[(k + 1) % 3] - corner[k], across);
+      if (shares.vertex[k] != 0) add_vertex(shares.vertex[k], corner[k], across);
+    }
+  }
+
+  // The weights of the distances to the open face, the open sides and the corners.
+  struct Shares {
+    double face = 0, side[3] = {0, 0, 0}, vertex[3] = {0, 0, 0};
+  };
+
+  // A face's weight goes to where its closest point lies. Where that changes from one to the other, as straight above the
+  // side between two faces of one plane, the distances are one but their second derivatives are not: then each has the
+  // share of the directions from there in which it is the closer one, a half each for a face and its side; for a corner
+  // of angle a the face a / 2 pi, its two sides a quarter each, the corner the rest. A rod that lies along an edge
+  // within a plane then feels that plane and nothing else.
+  void share_face(double weight, const Vec3 (&corner)[3], const TriangleFoot& foot, const Vec3& plane, Shares& to) const {
+    const double height = plane.dot(p - corner[0]), tie = same_place * foot.squared;
+    if (!foot.inside && (plane == Vec3::Zero() || foot.squared - height * height > tie)) {
+      // Of two sides that end in the closest corner the one that p is straight above the end of knows more.
+      int side = foot.side;
+      for (int k = 0; k < 3; ++k)
+        if (foot.sides[k].squared <= foot.squared * (1 + same_place) && tied_end(k, corner, foot) >= 0) side = k;
+      return share_side(weight, side, corner, foot, to);
+    }
+    bool at[3];
+    for (int k = 0; k < 3; ++k) at[k] = (foot.sides[k].point - foot.point).squaredNorm() <= tie;
+    const int sides = at[0] + at[1] + at[2];
+    if (sides == 0) {
+      to.face += weight;
+    } else if (sides == 1) {
+      to.face += 0.5 * weight;
+      to.side[at[0] ? 0 : at[1] ? 1 : 2] += 0.5 * weight;
+    } else {
+      // The corner between sides k and v; a triangle smaller than the tolerance takes any.
+      const int k = at[0] && at[1] ? 0 : at[1] && at[2] ? 1 : 2, v = (k + 1) % 3;
+      const Vec3 one = corner[k] - corner[v], other = corner[(v + 1) % 3] - corner[v];
+      const double turn = std::atan2(one.cross(other).norm(), one.dot(other)) / (2 * units::pi);
+      to.face += turn * weight;
+      to.side[k] += 0.25 * weight;
+      to.side[v] += 0.25 * weight;
+      to.vertex[v] += (0.5 - turn) * weight;
+    }
+  }
+
+  // A side's weight: to its inside, to the end where its closest point lies, or half and half straight above an end.
+  void share_side(double weight, int k, const Vec3 (&corner)[3], const TriangleFoot& foot, Shares& to) const {
+    if (weight == 0) return;
+    const int tied = tied_end(k, corner, foot), end = tied >= 0 ? tied : foot.sides[k].end;
+    const double moved = tied >= 0 ? 0.5 * weight : end >= 0 ? weight : 0;
+    if (end >= 0) to.vertex[(k + end) % 3] += moved;
+    to.side[k] += weight - moved;
+  }
+
+  // The end of a side that p is straight above; -1 for neither.
+  int tied_end(int k, const Vec3 (&corner)[3], const TriangleFoot& foot) const {
+    const Vec3 along = corner[(k + 1) % 3] - corner[k];
+    const double whole = along.squaredNorm(), from_start = along.dot(p - corner[k]), to_end = whole - from_start;
+    const double tie = same_place * foot.sides[k].squared * whole;
+    return from_start * from_start <= tie ? 0 : to_end * to_end <= tie ? 1 : -1;
   }
 };
 

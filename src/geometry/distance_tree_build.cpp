@@ -226,7 +226,7 @@ class TreeBuilder {
 
   static float bins_per_length(const Range& range, int axis) {
     const float length = range.middles.high[axis] - range.middles.low[axis];
-    return length > 0 ? bins * 0.9999f / length : 0;
+    return length > 1e-30f ? bins * 0.9999f / length : 0;
   }
   static int bin_of(float middle, float low, float per) {
     return std::clamp(static_cast<int>((middle - low) * per), 0, bins - 1);

@@ -41,7 +41,8 @@ ClosestPoint Surroundings::closest_on(int index, const Vec3& p, double limit) co
   // Inside its box a solid may be nearer than any limit; a mesh is not nearer than its box.
   const double reach = limit + offset;
   if (!all_finite(p)) return nothing;
-  if (entry.box.squaredExteriorDistance(p) > 0 && !(std::sqrt(entry.box.squaredExteriorDistance(p)) < reach)) return nothing;
+  const double to_box = entry.box.squaredExteriorDistance(p);
+  if (to_box > 0 && !(reach > 0 && to_box < reach * reach)) return nothing;
   if (!entry.surface) {
     const SolidDistance found = distance_to(std::get<Solid>(entry.obstacle.shape), entry.to_local(p));
     if (!(found.distance < reach)) return nothing;
@@ -65,7 +66,8 @@ void Surroundings::terms(const Vec3& p, double range, std::vector<DistanceTerm>&
   if (!all_finite(p)) return;
   for (int i = 0; i < size(); ++i) {
     const double reach = range + entries_[i].obstacle.offset;
-    if (entries_[i].box.squaredExteriorDistance(p) > reach * reach && !entries_[i].box.contains(p)) continue;
+    const double to_box = entries_[i].box.squaredExteriorDistance(p);
+    if (to_box > 0 && !(reach > 0 && to_box < reach * reach)) continue;
     if (entries_[i].surface) add_mesh_terms(i, p, range, out);
     else add_solid_term(i, p, range, out);
   }

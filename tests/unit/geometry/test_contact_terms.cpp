@@ -111,6 +111,35 @@ TEST_CASE("the energy does not depend on the tessellation of a plate", "[contact
   }
 }
 
+TEST_CASE("straight above the edges and vertices within a plane there is a plane and nothing else", "[contact]") {
+  Random random(45);
+  const Frame pose{random.point(1), random.rotation()};
+  for (const Frame& frame : {Frame{}, pose}) {
+    const Surroundings field = around(plate(8), frame);
+    const Vec3 up = frame.rotation * Vec3::UnitZ();
+    const double range = 0.2, height = 0.15;
+    for (const Vec3& at : {Vec3(0, 0, 0), Vec3(0.25, 0, 0), Vec3(0.1, 0, 0), Vec3(0.25, 0.1, 0), Vec3(0.1, 0.1, 0),
+                           Vec3(0.5, -0.75, 0), Vec3(0.125, 0.125, 0)}) {
+      const Energy e = energy_at(field, (frame * Frame{at + Vec3(0, 0, height), Quat::Identity()}).at, range);
+      const double delta = range - height;
+      CHECK(e.value == Approx(phi(height, range)).epsilon(1e-10));
+      CHECK((e.gradient + 2.5 * std::pow(delta, 1.5) * up).norm() < 1e-9);
+      CHECK((e.hessian - 3.75 * std::sqrt(delta) * up * up.transpose()).norm() < 1e-6);
+    }
+  }
+}
+
+TEST_CASE("where a foot passes from a face to its edge the Hessian is the mean of both sides", "[contact]") {
+  const Surroundings field = around(box_mesh({1, 1, 1}, 3));
+  const double range = 0.3, h = 1e-4;
+  for (const Vec3& at : {Vec3(1, 0.2, 1.1), Vec3(1.1, 1, 0.4)}) {
+    const Vec3 across = at.x() == 1 ? Vec3::UnitX() : Vec3::UnitY();
+    const Mat3 mean = 0.5 * (energy_at(field, at + h * across, range).hessian + energy_at(field, at - h * across, range).hessian);
+    CHECK((energy_at(field, at, range).hessian - mean).norm() < 1e-2);
+    CHECK((energy_at(field, at + h * across, range).hessian - mean).norm() > 1);
+  }
+}
+
 TEST_CASE("in a concave corner both walls count", "[contact]") {
   // A floor (z = 0) and a wall (x = 0) that meet at a right angle.
   Mesh mesh;
