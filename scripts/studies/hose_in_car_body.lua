@@ -5,7 +5,8 @@
 local mm, MPa = units.mm, units.MPa
 
 local here = arg[0]:match("^(.*)/") or "."
-local file, out = here .. "/../../../shared/data/meshes/audi_chassis.obj", "out"
+local shared = os.getenv("TENDRIL_SHARED") or here .. "/../../../shared"
+local file, out = shared .. "/data/meshes/audi_chassis.obj", "out"
 for _, a in ipairs(arg) do
   local key, value = a:match("^(%w+)=(.+)$")
   if key == "out" then out = value
