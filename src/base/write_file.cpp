@@ -8,7 +8,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
+#include <iterator>
 
 #include "base/error.h"
 
@@ -61,10 +61,16 @@ std::string read_file(const std::string& path) {
   if (std::filesystem::is_directory(path)) fail("cannot read", path, "it is a folder");
   std::ifstream in(path, std::ios::binary);
   if (!in) fail("cannot read", path, std::strerror(errno));
-  std::ostringstream content;
-  content << in.rdbuf();
+  // Room for the whole at once where the size is known; pipes and the like grow as they are read.
+  std::error_code unknown;
+  const auto size = std::filesystem::file_size(path, unknown);
+  std::string content(unknown ? 0 : static_cast<std::size_t>(size), '\0');
+  in.read(content.data(), static_cast<std::streamsize>(content.size()));
+  content.resize(static_cast<std::size_t>(in.gcount()));
+  if (in && in.peek() != std::ifstream::traits_type::eof())
+    content.append(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>());
   if (in.bad()) fail("cannot read", path, std::strerror(errno));
-  return std::move(content).str();
+  return content;
 }
 
 }  // namespace tendril
