@@ -1,0 +1,82 @@
+// Random rods among random obstacles: what solve() calls solved is an equilibrium outside of everything.
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cstdio>
+
+#include "contact_surroundings.h"
+#include "statics/contact_solver.h"
+#include "statics/solve.h"
+
+using namespace tendril;
+using namespace tendril::test;
+
+namespace {
+
+constexpr int cases = 40;
+constexpr std::uint64_t first_seed = 20000;
+
+Vec3 unbalanced(const RodProblem& problem, const Equilibrium& eq) {
+  Vec3 sum = problem.rod.mass() * problem.gravity;
+  for (const ContactForce& contact : eq.contacts) sum += contact.force;
+  for (const Reaction& reaction : eq.reactions) sum += reaction.force;
+  return sum;
+}
+
+}  // namespace
+
+TEST_CASE("contact families: solved, outside, in balance, and solved again after a small move") {
+  for (const ContactFamily& family : contact_families(60)) {
+    int solved = 0, again = 0;
+    std::vector<int> passes;
+    for (int k = 0; k < cases; ++k) {
+      const std::uint64_t seed = first_seed + k;
+      std::mt19937_64 random(seed);
+      const ContactCase one = family.make(random, as_surroundings());
+      const Equilibrium eq = solve(one.problem);
+      INFO(family.name << ", seed " << seed << ": " << eq.message << ", " << eq.iterations << " passes");
+      for (const Vec3& p : eq.points) REQUIRE(all_finite(p));
+      if (!eq.ok()) continue;
+      ++solved;
+      passes.push_back(eq.iterations);
+      const double radius = one.problem.rod.largest_radius();
+      CHECK(eq.deepest_penetration <= largest_solved_overlap * radius);
+      CHECK(!one.tunnelled(eq));
+      CHECK(eq.stable);
+      const double weight = one.problem.rod.mass() * 9.81;
+      CHECK(unbalanced(one.problem, eq).norm() < 1e-6 * weight);
+      for (const ContactForce& contact : eq.contacts) {
+        CHECK(contact.s >= 0);
+        CHECK(contact.s <= one.problem.rod.length);
+        CHECK(contact.gap >= -largest_solved_overlap * radius);
+      }
+      RodProblem moved = one.problem;
+      moved.holds.back().frame.at += Vec3(0.002, 0.001, -0.001);
+      const Equilibrium warm = solve(moved, {}, {}, &eq);
+      again += warm.ok();
+      if (warm.ok()) CHECK(!one.tunnelled(warm));
+    }
+    std::sort(passes.begin(), passes.end());
+    std::printf("%-22s seeds %d ... %d: solved %d of %d, %d passes in the middle, solved again %d\n", family.name.c_str(),
+                int(first_seed), int(first_seed) + cases - 1, solved, cases, passes.empty() ? 0 : passes[passes.size() / 2], again);
+    CHECK(solved >= cases - 1);
+    CHECK(again >= solved - 1);
+  }
+}
+
+TEST_CASE("contact families: the tree's field and the sum over every triangle give the same equilibrium") {
+  for (const ContactFamily& family : contact_families(12)) {
+    for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+      std::mt19937_64 random(seed), same(seed);
+      const ContactCase tree = family.make(random, as_surroundings());
+      const ContactCase all = family.make(same, every_triangle());
+      const Equilibrium a = solve(tree.problem), b = solve(all.problem);
+      INFO(family.name << ", seed " << seed << ": " << a.message << "; " << b.message);
+      REQUIRE(a.ok() == b.ok());
+      if (!a.ok()) continue;
+      // Rounding may lead the two to different places on a flat stretch of energy, but not to different energies.
+      CHECK(std::abs(a.energy.total() - b.energy.total()) < 1e-4 * (std::abs(a.energy.bend) + std::abs(a.energy.gravity)));
+    }
+  }
+}
