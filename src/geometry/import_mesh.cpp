@@ -89,7 +89,8 @@ std::string unlikely_size(double diagonal, double unit) {
   std::ostringstream said;
   said.precision(3);
   said << "it is " << diagonal << " m across, which is unlikely";
-  for (const auto& [name, metres] : {std::pair{"m", 1.0}, std::pair{"mm", 1e-3}, std::pair{"cm", 1e-2}, std::pair{"um", 1e-6}}) {
+  constexpr std::pair<const char*, double> units[] = {{"m", 1}, {"mm", 1e-3}, {"cm", 1e-2}, {"um", 1e-6}};
+  for (const auto& [name, metres] : units) {
     if (in_file * metres < 0.02 || in_file * metres > 50) continue;
     said << "; if the file's unit is " << name << ", it is " << in_file * metres << " m";
     break;
@@ -112,7 +113,8 @@ LoadedMesh load_mesh(const std::string& path, double unit, const RunContext& con
     read += (read.empty() ? "" : ", ") + other;
   }
   if (!known)
-    fail_mesh(path, (suffix.empty() ? "a name without a suffix" : "files of the suffix '" + suffix + "' are not read") + "; what is read: " + read);
+    fail_mesh(path, (suffix.empty() ? "a name without a suffix" : "files of the suffix '" + suffix + "' are not read") +
+                        "; what is read: " + read);
 
   LoadedMesh loaded;
   Mesh raw = parsed(path, suffix, context);

@@ -1,7 +1,7 @@
 #include "geometry/mesh_export.h"
 
-#include <algorithm>
 #include <bit>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
@@ -81,11 +81,12 @@ void save_mesh(const std::string& path, const Mesh& mesh, double unit) {
   if (!(std::isfinite(unit) && unit > 0))
     throw UsageError("mesh '" + path + "': the unit must be a finite number of metres above 0");
   std::string suffix = std::filesystem::path(path).extension().string();
-  std::transform(suffix.begin(), suffix.end(), suffix.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  for (char& c : suffix) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   if (suffix == ".stl") write_file(path, stl_of(mesh, unit));
   else if (suffix == ".ply") write_file(path, ply_of(mesh, unit));
   else if (suffix == ".obj") write_file(path, obj_of(mesh, unit));
-  else throw UsageError("mesh '" + path + "': files of the suffix '" + suffix + "' are not written; what is written: .stl, .ply, .obj");
+  else throw UsageError("mesh '" + path + "': files of the suffix '" + suffix +
+                        "' are not written; what is written: .stl, .ply, .obj");
 }
 
 }  // namespace tendril

@@ -1,5 +1,6 @@
 // PLY, text and binary of either byte order: x, y, z of the element "vertex" and the index lists of "face".
 
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <cstring>
@@ -46,17 +47,24 @@ class PlyReader {
   Mesh read() {
     header();
     for (const Element& element : elements_) body(element);
-    const int count = static_cast<int>(mesh_.vertices.size());
-    for (const auto& corners : polygons_)
-      for (int corner : corners)
-        if (corner < 0 || corner >= count)
-          fail_mesh(name_, "a face uses vertex " + std::to_string(std::int64_t{corner} + 1) + "; there are " + std::to_string(count) +
-                               " vertices");
-    for (const auto& corners : polygons_) triangulate(mesh_.vertices, corners, mesh_.triangles);
+    for (const auto& corners : mesh_.triangles) check_corners(corners);
+    for (const auto& corners : polygons_) {
+      check_corners(corners);
+      triangulate(mesh_.vertices, corners, mesh_.triangles);
+    }
     return std::move(mesh_);
   }
 
  private:
+  template <class Corners>
+  void check_corners(const Corners& corners) {
+    const int count = static_cast<int>(mesh_.vertices.size());
+    for (int corner : corners)
+      if (corner < 0 || corner >= count)
+        fail_mesh(name_, "a face uses vertex " + std::to_string(std::int64_t{corner} + 1) + "; there are " +
+                             std::to_string(count) + " vertices");
+  }
+
   [[noreturn]] void bad_header(const std::string& why) {
     fail_mesh(name_, "line " + std::to_string(text_.line()) + ": " + why);
   }
@@ -70,7 +78,8 @@ class PlyReader {
       else if (word == "element") element();
       else if (word == "property") property();
       else if (word == "end_header") ended = true;
-      else if (!word.empty() && word != "comment" && word != "obj_info") bad_header("'" + std::string(word.substr(0, 20)) + "' is no part of a PLY header");
+      else if (!word.empty() && word != "comment" && word != "obj_info")
+        bad_header("'" + std::string(word.substr(0, 20)) + "' is no part of a PLY header");
     }
     if (!ended) fail_mesh(name_, "truncated: its header does not end");
     at_ = content_.size() - text_.rest();
@@ -88,8 +97,8 @@ class PlyReader {
     element.name = text_.word();
     if (!text_.number(element.count) || element.count < 0) bad_header("an element without a count");
     if (element.count > static_cast<std::int64_t>(content_.size()))
-      fail_mesh(name_, "truncated: " + std::to_string(element.count) + " of element '" + element.name.substr(0, 30) + "' in a file of " +
-                           std::to_string(content_.size()) + " bytes");
+      fail_mesh(name_, "truncated: " + std::to_string(element.count) + " of element '" + element.name.substr(0, 30) +
+                           "' in a file of " + std::to_string(content_.size()) + " bytes");
     elements_.push_back(std::move(element));
   }
 
@@ -110,35 +119,48 @@ class PlyReader {
 
   void body(const Element& element) {
     const bool vertices = element.name == "vertex", faces = element.name == "face";
+    if (vertices) mesh_.vertices.reserve(static_cast<std::size_t>(element.count));
+    if (faces) mesh_.triangles.reserve(static_cast<std::size_t>(element.count));
     for (std::int64_t i = 0; i < element.count; ++i) {
       where_ = &element, number_ = i + 1;
       Vec3 p = Vec3::Zero();
       for (const Property& property : element.properties) {
         const bool corners = faces && (property.name == "vertex_indices" || property.name == "vertex_index");
         const double count = property.count == Type::none ? 1 : value(property.count);
-        if (!(count >= 0) || (corners && count > most_corners)) fail_here("has " + std::to_string(static_cast<std::int64_t>(count)) + " corners; 3 to " + std::to_string(most_corners) + " are read");
-        if (corners) polygon(static_cast<int>(count), property.type);
+        const int axis = vertices && property.name.size() == 1 ? property.name[0] - 'x' : -1;
+        if (corners) polygon(count, property.type);
         else
-          for (std::int64_t k = 0; k < static_cast<std::int64_t>(count); ++k) {
+          for (double k = 0; k < count; ++k) {
             const double read = value(property.type);
-            if (vertices && property.name.size() == 1 && property.name[0] >= 'x' && property.name[0] <= 'z') p[property.name[0] - 'x'] = read;
+            if (axis >= 0 && axis < 3) p[axis] = read;
           }
       }
       if (vertices) mesh_.vertices.push_back(p);
     }
   }
 
-  void polygon(int count, Type type) {
-    if (count < 3) fail_here("has " + std::to_string(count) + " corners; 3 to " + std::to_string(most_corners) + " are read");
-    std::vector<int>& corners = polygons_.emplace_back(count);
-    for (int& corner : corners) {
+  void polygon(double count, Type type) {
+    if (!(count >= 3 && count <= most_corners))
+      fail_here("has " + std::to_string(count > 0 ? static_cast<std::int64_t>(std::min(count, 1e15)) : 0) + " corners; 3 to " +
+                std::to_string(most_corners) + " are read");
+    const auto corner = [&] {
       const double index = value(type);
-      corner = index >= 0 && index < 2147483647.0 ? static_cast<int>(index) : -1;
+      return index >= 0 && index < 2147483647.0 ? static_cast<int>(index) : -1;
+    };
+    if (count == 3) {
+      std::array<int, 3>& corners = mesh_.triangles.emplace_back();
+      for (int& c : corners) c = corner();
+    } else {
+      for (int& c : polygons_.emplace_back(static_cast<int>(count))) c = corner();
     }
   }
 
   [[noreturn]] void fail_here(const std::string& why) {
     fail_mesh(name_, where_->name + " " + std::to_string(number_) + " " + why);
+  }
+  [[noreturn]] void truncated() {
+    fail_mesh(name_, "truncated: it ends in " + where_->name + " " + std::to_string(number_) + " of " +
+                         std::to_string(where_->count));
   }
 
   double value(Type type) {
@@ -146,14 +168,13 @@ class PlyReader {
     text_.skip_space();
     double read;
     if (text_.number(read)) return read;
-    if (text_.done()) fail_mesh(name_, "truncated: it ends in " + where_->name + " " + std::to_string(number_) + " of " + std::to_string(where_->count));
+    if (text_.done()) truncated();
     fail_here("holds '" + std::string(text_.word().substr(0, 20)) + "' where a number is expected");
   }
 
   template <class T>
   double take() {
-    if (content_.size() - at_ < sizeof(T))
-      fail_mesh(name_, "truncated: it ends in " + where_->name + " " + std::to_string(number_) + " of " + std::to_string(where_->count));
+    if (content_.size() - at_ < sizeof(T)) truncated();
     unsigned char bytes[sizeof(T)];
     std::memcpy(bytes, content_.data() + at_, sizeof(T));
     at_ += sizeof(T);
@@ -182,7 +203,7 @@ class PlyReader {
   const std::string& name_;
   Mesh mesh_;
   std::vector<Element> elements_;
-  std::vector<std::vector<int>> polygons_;  ///< kept until all vertices are known
+  std::vector<std::vector<int>> polygons_;  ///< of more than three corners, kept until all vertices are known
   bool binary_ = false, swap_ = false;
   std::size_t at_ = 0;
   const Element* where_ = nullptr;
