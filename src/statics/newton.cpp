@@ -14,6 +14,8 @@ constexpr double rough_stress = 1;       // and so does a false stress above thi
 constexpr double smallest_neutral = 1e-7;  // EI/L^2; shifts from here on tell a neutral direction from a negative one
 constexpr int most_mode_moves = 6;
 constexpr double quadratic_regime = 1e-2; // below this a step predicts the next one
+constexpr double settled_step = 1e-5;     // steps below this that shrink no more are rounding along a nearly neutral mode
+constexpr int settled_rounds = 5;
 
 /// What one dead moment adds to the second derivative: an antisymmetric 3x3 block.
 Mat3 moment_block(const RodSystem::MomentTerm& term) { return -cross_matrix(term.body_moment); }
@@ -172,7 +174,8 @@ NewtonOutcome Newton::run(RodState& state, const NewtonOptions& options, const R
   Stress stress = options.descend || options.warm ? Stress::actual : Stress::zero;
   shift_ = last_shift_ = 0;
   double previous_step = INFINITY;
-  int mode_moves = 0, blocked = 0;
+  double smallest_step = settled_step;
+  int mode_moves = 0, blocked = 0, unchanged = 0;
   for (int round = 0; out.iterations < options.max_iterations; ++round) {
     if (const auto stop = context.stop()) {
       out.status = *stop;
@@ -219,7 +222,9 @@ NewtonOutcome Newton::run(RodState& state, const NewtonOptions& options, const R
       const double left = size < quadratic_regime && previous_step < 10 * quadratic_regime
                               ? 10 * size * size * size / (previous_step * previous_step) + 0.3 * size * previous_step
                               : size;
-      if (std::min(size, left) < options.tolerance) {
+      unchanged = size < settled_step && size > 0.5 * smallest_step ? unchanged + 1 : 0;
+      smallest_step = std::min(smallest_step, size);
+      if (std::min(size, left) < options.tolerance || unchanged == settled_rounds) {
         out.status = Status::solved;
         return out;
       }

@@ -5,7 +5,6 @@
 
 using cli::Outcome;
 using cli::run_and_interrupt;
-using Catch::Matchers::Contains;
 
 TEST_CASE("an interrupt ends any Lua loop with exit code 130") {
   const std::string start = "io.write('ready\\n') io.flush() ";
@@ -26,12 +25,11 @@ TEST_CASE("an interrupt ends any Lua loop with exit code 130") {
   INFO(code);
   const Outcome o = run_and_interrupt({"-e", start + code});
   CHECK(o.code == 130);
-  CHECK_THAT(o.err, Contains("interrupted") || Contains("tendril:") || Contains(""));
   CHECK(o.err.find('\033') == std::string::npos);
 }
 
 TEST_CASE("an interrupt is told with the line it struck") {
-  const Outcome o = run_and_interrupt({"-e", "io.write('ready\\n') io.flush()\nlocal n = 0\nwhile true do n = n + 1 end"});
+  const Outcome o = run_and_interrupt({"-e", "local n = 0\n\nwhile true do n = n + 1 if n == 1 then io.write('ready\\n') io.flush() end end"});
   CHECK(o.err == "tendril: (command line):3: interrupted\n");
   CHECK(o.code == 130);
 }

@@ -1,0 +1,105 @@
+// Help, examples and editor annotations, for everything that is bound.
+#include <catch2/catch.hpp>
+#include <set>
+
+#include "base/write_file.h"
+#include "binding/help_text.h"
+#include "unit/binding/script.h"
+
+using namespace tendril::lua;
+using Catch::Matchers::Contains;
+using Catch::Matchers::StartsWith;
+
+TEST_CASE("everything bound has a text, and every function an example") {
+  Script lua;
+  for (const auto& function : lua.context.registry->functions) {
+    INFO(function->name);
+    CHECK_FALSE(function->text.empty());
+    CHECK_FALSE(function->example.empty());
+    for (const Option& option : function->options.entries()) {
+      INFO(option.name);
+      CHECK_FALSE(option.text.empty());
+    }
+  }
+  for (const auto& record : lua.context.registry->classes) {
+    INFO(record->name);
+    CHECK_FALSE(record->text.empty());
+    for (const auto& [name, property] : record->properties) {
+      INFO(name);
+      CHECK_FALSE(property.text.empty());
+    }
+  }
+  for (const auto& module : lua.context.registry->modules) CHECK_FALSE(module->text.empty());
+}
+
+TEST_CASE("names are bound once") {
+  Script lua;
+  std::set<std::string> names;
+  for (const auto& function : lua.context.registry->functions) {
+    INFO(function->name);
+    CHECK(names.insert(function->name).second);
+    std::set<std::string> options;
+    for (const Option& option : function->options.entries()) {
+      INFO(option.name);
+      CHECK(options.insert(option.name).second);
+    }
+  }
+}
+
+TEST_CASE("every example of help runs and prints what it says") {
+  std::vector<std::pair<std::string, std::string>> examples;
+  {
+    Script lua;
+    for (const auto& function : lua.context.registry->functions) examples.emplace_back(function->name, function->example);
+  }
+  for (const auto& [name, example] : examples) {
+    Script lua;  // examples do not lean on each other
+    INFO(name << ":\n" << example);
+    luaL_dostring(lua.L, "printed = '' function print(...) local t = table.pack(...) for i = 1, t.n do t[i] = tostring(t[i]) end "
+                         "printed = printed .. table.concat(t, '  ') .. '\\n' end");
+    const std::string failure = lua(example);
+    CHECK(failure.empty());
+    if (const auto mark = example.find("--> "); mark != std::string::npos)
+      CHECK(lua("return printed") == example.substr(mark + 4) + "\n");
+  }
+}
+
+TEST_CASE("help finds functions, classes, modules and objects") {
+  Script lua;
+  const Registry& registry = *lua.context.registry;
+  CHECK_THAT(help_named(registry, "frame"), StartsWith("frame{at=, along=, [up=]} -> frame\n  A place and orientation"));
+  CHECK_THAT(help_named(registry, "frame"), Contains("option  unit  meaning") && Contains("required") && Contains("Example\n"));
+  CHECK_THAT(help_named(registry, "vec:dot"), StartsWith("vec:dot(other) -> number"));
+  CHECK(help_named(registry, "vec.dot") == help_named(registry, "vec:dot"));
+  CHECK_THAT(help_named(registry, "units"), StartsWith("units\n  Factors to SI") && Contains("units.mm   millimetre"));
+  CHECK(help_named(registry, "nothing").empty());
+  CHECK_THAT(help_overview(registry), Contains("units") && Contains("frame") && Contains("help"));
+}
+
+TEST_CASE("help in Lua") {
+  Script lua;
+  luaL_dostring(lua.L, "function print(text) printed = text end");
+  CHECK_THAT(lua("help() return printed"), StartsWith("tendril: "));
+  CHECK_THAT(lua("help(vec) return printed"), StartsWith("vec(x, y, z) -> vec") && Contains(":cross"));
+  CHECK_THAT(lua("help(vec(1, 2, 3)) return printed"), StartsWith("vec\n"));
+  CHECK_THAT(lua("help(units) return printed"), StartsWith("units\n"));
+  CHECK_THAT(lua("place = frame{at = {0, 0, 0}, along = {1, 0, 0}} help 'place' return printed"), StartsWith("frame\n"));
+  CHECK(lua("help(print) return printed") == "no help about a function");
+  CHECK(lua("x = 5 help 'x' return printed") == "x is a number (5); there is no help about it");
+  CHECK(lua("help 'vec:dto'") == "code:1: help: nothing is called 'vec:dto'; did you mean 'vec:dot'?");
+  CHECK(lua("help 'os.exit(1)'") == "code:1: help: nothing is called 'os.exit(1)'");
+}
+
+TEST_CASE("the editor annotations in the tree are those of what is bound") {
+  Script lua;
+  const std::string bound = annotations(*lua.context.registry);
+  CHECK_THAT(bound, StartsWith("---@meta tendril\n") && Contains("function frame(options) end") &&
+                        Contains("---@operator mul(number|vec|number[]): vec\n"));
+  INFO("after a change: build/tendril --annotations > lua/meta/tendril.lua");
+  CHECK((bound == tendril::read_file("lua/meta/tendril.lua")));
+}
+
+TEST_CASE("the editor annotations are a Lua module without an effect") {
+  Script lua;
+  CHECK(luaL_loadstring(lua.L, annotations(*lua.context.registry).c_str()) == LUA_OK);
+}
