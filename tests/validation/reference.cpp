@@ -95,11 +95,6 @@ std::vector<const Reference*> references_named(const char* name) {
   return found;
 }
 
-double stiffness_ratio(const Reference& reference) {
-  // The localized helices pull with 1000 to 3000 EI/L^2; the others with less than 100.
-  return std::string(reference.name).find("localized") == 0 ? 1e12 : 1e10;
-}
-
 RodProblem problem_of(const Reference& reference, int segments) {
   const ReferenceRod& rod = reference.rod;
   Section section;
@@ -107,7 +102,7 @@ RodProblem problem_of(const Reference& reference, int segments) {
   section.EI1 = rod.bend[0];
   section.EI2 = rod.bend[1];
   section.GJ = rod.bend[2];
-  const double stiff = stiffness_ratio(reference) * rod.bend[0] / (rod.length * rod.length);
+  const double stiff = stiffness_ratio * rod.bend[0] / (rod.length * rod.length);
   section.GA1 = rod.rigid() ? stiff : rod.stretch[0];
   section.GA2 = rod.rigid() ? stiff : rod.stretch[1];
   section.EA = rod.rigid() ? stiff : rod.stretch[2];

@@ -61,8 +61,9 @@ std::vector<const Reference*> all_references();
 /// The references of one name, in their order; throws for an unknown name.
 std::vector<const Reference*> references_named(const char* name);
 
-/// How stiff the twin of an inextensible rod is: EA L^2/EI. It leaves an error of about the load over EA.
-double stiffness_ratio(const Reference& reference);
+/// How stiff the twin of an inextensible rod is: EA L^2/EI. It leaves an error of about the load over EA: less than
+/// 1e-8, and 3e-7 for the localized helices, which pull with 1000 to 3000 EI/L^2.
+inline constexpr double stiffness_ratio = 1e10;
 
 RodProblem problem_of(const Reference& reference, int segments);
 
