@@ -107,4 +107,21 @@ inline M3<T> jacobian_derivative(const V3<T>& phi, const V3<T>& a, const Jacobia
   return d;
 }
 
+/// exp(-[t]) x: the components of a fixed vector after the axes have turned by t (|t| <= 1 rad, exact to 1e-14).
+template <class T>
+inline V3<T> turned_back(const V3<T>& t, const V3<T>& x) {
+  const T u = dot(t, t);
+  T sine = filled<T>(-1.0 / 39916800), cosine = filled<T>(1.0 / 479001600);  // of sin(t)/t and (1 - cos t)/t^2
+  constexpr double sines[5] = {1, -1.0 / 6, 1.0 / 120, -1.0 / 5040, 1.0 / 362880};
+  constexpr double cosines[5] = {0.5, -1.0 / 24, 1.0 / 720, -1.0 / 40320, 1.0 / 3628800};
+  cosine = -cosine;
+#pragma GCC unroll 5
+  for (int k = 4; k >= 0; --k) {
+    sine = sine * u + sines[k];
+    cosine = cosine * u + cosines[k];
+  }
+  const V3<T> once = cross(t, x);
+  return x - sine * once + cosine * cross(t, once);
+}
+
 }  // namespace tendril

@@ -207,7 +207,7 @@ NewtonOutcome Newton::run(RodState& state, const NewtonOptions& options, const R
       share = armijo_share(state, share);
       if (further_ && share < guarded) share = further_->allowed(state, step_, share);
     }
-    if (!options.descend) system_.predict(step_, 1);
+    if (!options.descend) system_.predict(step_, share);
     if (further_) further_->stepped(state, step_, share);
     state.apply(step_, share);
     out.last_step = share * size;

@@ -63,7 +63,8 @@ class RodSystem {
   /// Energy and gradient alone.
   double gradient(const RodState& state, std::vector<Vec6>& gradient);
 
-  /// After assemble(): the wrench that the linearised step leads to becomes the predicted one.
+  /// After assemble(): the wrench that the whole linearised step leads to becomes the predicted one. It balances the
+  /// loads in world axes, so it is turned back by what the sections really turn, `share` of the step's rotations.
   virtual void predict(const std::vector<Vec6>& step, double share) = 0;
 
   /// Dead moments times `share`, for loading in steps.

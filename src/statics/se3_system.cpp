@@ -99,6 +99,7 @@ Se3System::Se3System(const RodProblem& problem, RodMesh mesh, bool fourth_order)
   }
   actual_.resize(packs());
   predicted_.resize(packs());
+  geometric_.resize(packs());
   rates_.resize(packs());
 }
 
@@ -168,6 +169,7 @@ double Se3System::assemble_elements(const RodState& state, Stress stress, BlockS
     SegmentHessian<Pack> h;
     const SegmentGradient<Pack> g = se3_element(segments_[p], ends(state, p), w, h, rates_[p]);
     actual_[p] = g.wrench;
+    geometric_[p] = w ? *w : g.wrench;
     for (int l = 0; l < lanes_in(p); ++l) {
       const int a = 4 * p + l, b = a + 1;
       energy += lane(g.energy, l);
@@ -214,7 +216,7 @@ double Se3System::element_gradient(const RodState& state, std::vector<Vec6>& gra
 }
 
 void Se3System::predict(const std::vector<Vec6>& step, double share) {
-  const Pack scale = filled<Pack>(share);
+  const Pack half = filled<Pack>(0.5), turned = filled<Pack>(share);
   for (int p = 0; p < packs(); ++p) {
     V3<Pack> dr{}, ta{}, tb{};
     for (int l = 0; l < lanes_in(p); ++l) {
@@ -224,7 +226,9 @@ void Se3System::predict(const std::vector<Vec6>& step, double share) {
       put(tb, b.tail<3>(), l);
     }
     const Wrench<Pack> change = rates_[p].change(dr, ta, tb);
-    predicted_[p] = {actual_[p].n + scale * change.n, actual_[p].m + scale * change.m};
+    const V3<Pack> turn = half * (ta + tb), back = turned * turn;
+    predicted_[p] = {turned_back(back, actual_[p].n + change.n + cross(turn, geometric_[p].n)),
+                     turned_back(back, actual_[p].m + change.m + cross(turn, geometric_[p].m))};
   }
 }
 

@@ -29,7 +29,7 @@ class Se3System final : public RodSystem {
   Se3Ends<Pack> ends(const RodState& state, int pack) const;
 
   std::vector<Se3Segment<Pack>> segments_;
-  std::vector<Wrench<Pack>> actual_, predicted_;
+  std::vector<Wrench<Pack>> actual_, predicted_, geometric_;  ///< geometric: that of the last second derivative
   std::vector<WrenchRate<Pack>> rates_;
   bool fourth_order_;
 };

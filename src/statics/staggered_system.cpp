@@ -184,6 +184,7 @@ double StaggeredSystem::assemble_elements(const RodState& state, Stress stress, 
     const auto t = s.segment.evaluate(state.r[j + 1] - state.r[j], state.q[j + 1], geometric(s.predicted));
     energy += t.energy;
     s.actual = s.segment.stress(t.strain);
+    s.geometric = stress == Stress::actual ? s.actual : stress == Stress::zero ? nothing : s.predicted;
     s.rate_r = t.rate_r;
     s.rate_theta = t.rate_theta;
     system.gradient[j].head<3>() -= t.force;
@@ -202,6 +203,7 @@ double StaggeredSystem::assemble_elements(const RodState& state, Stress stress, 
     const auto t = c.bend.evaluate(rotation_a(c, state), rotation_b(c, state), geometric(c.predicted));
     energy += t.energy;
     c.actual = c.bend.moment(t.curvature);
+    c.geometric = stress == Stress::actual ? c.actual : stress == Stress::zero ? nothing : c.predicted;
     c.rate_a = t.rate_a;
     c.rate_b = t.rate_b;
     if (c.a >= 0) {
@@ -236,15 +238,18 @@ double StaggeredSystem::element_gradient(const RodState& state, std::vector<Vec6
 }
 
 void StaggeredSystem::predict(const std::vector<Vec6>& step, double share) {
+  auto balanced = [&](const Vec3& actual, const Vec3& change, const Vec3& geometric, const Vec3& turn) {
+    return Vec3(exp_rotation(-share * turn) * (actual + change + turn.cross(geometric)));
+  };
   for (int j = 0; j < segments(); ++j) {
     Stretch& s = stretches_[j];
-    const Vec3 move = step[j + 1].head<3>() - step[j].head<3>();
-    s.predicted = s.actual + share * (s.rate_r * move + s.rate_theta * step[j + 1].tail<3>());
+    const Vec3 move = step[j + 1].head<3>() - step[j].head<3>(), turn = step[j + 1].tail<3>();
+    s.predicted = balanced(s.actual, s.rate_r * move + s.rate_theta * turn, s.geometric, turn);
   }
   for (Cell& c : cells_) {
-    c.predicted = c.actual;
-    if (c.a >= 0) c.predicted += share * (c.rate_a * step[c.a].tail<3>());
-    if (c.b >= 0) c.predicted += share * (c.rate_b * step[c.b].tail<3>());
+    const Vec3 ta = c.a < 0 ? Vec3(Vec3::Zero()) : Vec3(step[c.a].tail<3>());
+    const Vec3 tb = c.b < 0 ? Vec3(Vec3::Zero()) : Vec3(step[c.b].tail<3>());
+    c.predicted = balanced(c.actual, c.rate_a * ta + c.rate_b * tb, c.geometric, 0.5 * (ta + tb));
   }
 }
 

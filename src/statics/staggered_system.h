@@ -30,12 +30,12 @@ class StaggeredSystem final : public RodSystem {
     int a, b;         ///< nodes; -1: the held frame
     Quat held;
     int hold = -1;
-    Vec3 actual = Vec3::Zero(), predicted = Vec3::Zero();
+    Vec3 actual = Vec3::Zero(), predicted = Vec3::Zero(), geometric = Vec3::Zero();
     Mat3 rate_a, rate_b;
   };
   struct Stretch {
     StretchSegment segment;
-    Vec3 actual = Vec3::Zero(), predicted = Vec3::Zero();
+    Vec3 actual = Vec3::Zero(), predicted = Vec3::Zero(), geometric = Vec3::Zero();
     Mat3 rate_r, rate_theta;
   };
 
