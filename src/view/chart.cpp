@@ -27,7 +27,8 @@ namespace {
 
 bool ends_in(const std::string& path, const std::string& wanted) {
   std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return extension == wanted;
 }
 
@@ -60,7 +61,8 @@ class Gnuplot {
     close(in[0]), close(out[1]);
     if (failed) {
       close(to_), close(from_);
-      refuse(failed == ENOENT ? "gnuplot is missing (package gnuplot-nox)" : std::string("gnuplot cannot be started: ") + std::strerror(failed));
+      refuse(failed == ENOENT ? "gnuplot is missing (package gnuplot-nox)"
+                              : std::string("gnuplot cannot be started: ") + std::strerror(failed));
     }
     fcntl(to_, F_SETFL, O_NONBLOCK);
   }
@@ -79,7 +81,8 @@ class Gnuplot {
     for (;;) {
       if (const auto stop = context.stop()) return stop;
       pollfd wait[2] = {{from_, POLLIN, 0}, {to_, POLLOUT, 0}};
-      if (poll(wait, to_ >= 0 ? 2 : 1, 50) < 0 && errno != EINTR) refuse(std::string("lost gnuplot: ") + std::strerror(errno));
+      if (poll(wait, to_ >= 0 ? 2 : 1, 50) < 0 && errno != EINTR)
+        refuse(std::string("lost gnuplot: ") + std::strerror(errno));
       if (to_ >= 0 && wait[1].revents) feed(script, fed);
       if (wait[0].revents) {
         const ssize_t got = read(from_, buffer, sizeof buffer);
@@ -141,7 +144,8 @@ class Temporary {
 void check_series(const Chart& chart, const ChartSeries& series) {
   const bool needs_x = chart.kind == ChartKind::lines || chart.kind == ChartKind::scatter;
   if (needs_x && series.x.size() != series.y.size())
-    refuse("series '" + series.name + "': " + std::to_string(series.x.size()) + " x for " + std::to_string(series.y.size()) + " y");
+    refuse("series '" + series.name + "': " + std::to_string(series.x.size()) + " x for " +
+           std::to_string(series.y.size()) + " y");
   if (!needs_x && !series.x.empty())
     refuse("series '" + series.name + "': has x values, but bars and histograms take y only");
 }
@@ -151,15 +155,18 @@ void check_series(const Chart& chart, const ChartSeries& series) {
 void check_chart(const Chart& chart) {
   for (int size : {chart.width, chart.height})
     if (size < 64 || size > 8192)
-      refuse("size " + std::to_string(chart.width) + " x " + std::to_string(chart.height) + " pixels, expected 64 ... 8192 each");
+      refuse("size " + std::to_string(chart.width) + " x " + std::to_string(chart.height) +
+             " pixels, expected 64 ... 8192 each");
   if (chart.series.empty()) refuse("nothing to show: no series");
   if (chart.series.size() > 12) refuse(std::to_string(chart.series.size()) + " series, expected 1 to 12");
-  if (chart.bins < 0 || chart.bins > 10000) refuse(std::to_string(chart.bins) + " bins, expected 1 ... 10000, or 0 to choose");
+  if (chart.bins < 0 || chart.bins > 10000)
+    refuse(std::to_string(chart.bins) + " bins, expected 1 ... 10000, or 0 to choose");
   for (const ChartSeries& series : chart.series) check_series(chart, series);
   if (chart.kind == ChartKind::bars && !chart.categories.empty())
     for (const ChartSeries& series : chart.series)
       if (series.y.size() > chart.categories.size())
-        refuse("series '" + series.name + "': " + std::to_string(series.y.size()) + " bars for " + std::to_string(chart.categories.size()) + " categories");
+        refuse("series '" + series.name + "': " + std::to_string(series.y.size()) + " bars for " +
+               std::to_string(chart.categories.size()) + " categories");
   for (const ChartReference& line : chart.references)
     if (!std::isfinite(line.at)) refuse("reference line '" + line.label + "' is at NaN or infinity");
 }
@@ -171,7 +178,9 @@ ChartReport save_chart(const Chart& chart, const std::string& path, const RunCon
   check_chart(chart);
   const Temporary drawn;
   const ChartScript script = chart_script(chart, drawn.path, svg);
-  if (script.drawn == 0) refuse("nothing to show: none of " + std::to_string(script.dropped) + " points is finite" + (chart.log_x || chart.log_y ? " and positive on the log axes" : ""));
+  if (script.drawn == 0)
+    refuse("nothing to show: none of " + std::to_string(script.dropped) + " points is finite" +
+           (chart.log_x || chart.log_y ? " and positive on the log axes" : ""));
   ChartReport report;
   report.drawn = script.drawn, report.dropped = script.dropped;
   Gnuplot gnuplot;

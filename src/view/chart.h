@@ -13,7 +13,7 @@ enum class ChartKind { lines, scatter, bars, histogram };
 
 /// lines, scatter: points (x, y). bars: one y per category. histogram: the samples in y.
 struct ChartSeries {
-  std::string name;          ///< empty: not in the legend
+  std::string name;  ///< empty: not in the legend
   std::vector<double> x, y;
 };
 
@@ -28,28 +28,30 @@ struct ChartReference {
 struct Chart {
   ChartKind kind = ChartKind::lines;
   std::string title;
-  std::string x_label, y_label;            ///< with units: "segments", "error [m]"
-  bool log_x = false, log_y = false;       ///< a log axis leaves out what is not positive
-  bool markers = true;                     ///< lines: mark the points (up to 200 a series)
-  std::vector<ChartSeries> series;         ///< 1 to 12
-  std::vector<std::string> categories;     ///< bars: names below the bars; empty: 1, 2, ...
+  std::string x_label, y_label;         ///< with units: "segments", "error [m]"
+  bool log_x = false, log_y = false;    ///< a log axis leaves out what is not positive
+  bool markers = true;                  ///< lines: mark the points (up to 200 a series)
+  std::vector<ChartSeries> series;      ///< 1 to 12
+  std::vector<std::string> categories;  ///< bars: names below the bars; empty: 1, 2, ...
   std::vector<ChartReference> references;
-  int bins = 0;                            ///< histogram: 0 chooses by Freedman and Diaconis
-  int width = 1200, height = 800;          ///< pixels
+  int bins = 0;                    ///< histogram: 0 chooses by Freedman and Diaconis
+  int width = 1200, height = 800;  ///< pixels
 };
 
 struct ChartReport {
   Status status = Status::solved;  ///< solved, cancelled or timeout; the file is written only when solved
   double seconds = 0;
-  std::size_t drawn = 0;           ///< points
-  std::size_t dropped = 0;         ///< points that are NaN, infinite or not positive on a log axis
+  std::size_t drawn = 0;    ///< points
+  std::size_t dropped = 0;  ///< points that are NaN, infinite or not positive on a log axis
 };
 
-/// Throws UsageError for a chart that cannot be drawn: no series, no finite point, arrays of different lengths, absurd size.
+/// Throws UsageError for a chart that cannot be drawn: no series, no finite point, arrays of different lengths, absurd
+/// size.
 void check_chart(const Chart& chart);
 
-/// Writes a .png or .svg, whole or not at all; a missing folder is created. Throws UsageError for another extension, for
-/// what check_chart refuses, when gnuplot is missing (package gnuplot-nox) or fails, and when the file cannot be written.
+/// Writes a .png or .svg, whole or not at all; a missing folder is created. Throws UsageError for another extension,
+/// for what check_chart refuses, when gnuplot is missing (package gnuplot-nox) or fails, and when the file cannot be
+/// written.
 ChartReport save_chart(const Chart& chart, const std::string& path, const RunContext& context = {});
 
 }  // namespace tendril

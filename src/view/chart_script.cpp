@@ -40,7 +40,8 @@ Drawable drawable_of(const Chart& chart) {
       const double x = indexed ? static_cast<double>(i) : series.x[i], y = series.y[i];
       const bool log_x = chart.log_x && !indexed, log_y = chart.log_y && chart.kind != ChartKind::histogram;
       const bool log_sample = chart.log_x && chart.kind == ChartKind::histogram;
-      if (!std::isfinite(x) || !std::isfinite(y) || (log_x && x <= 0) || (log_y && y <= 0) || (log_sample && y <= 0)) ++result.dropped;
+      if (!std::isfinite(x) || !std::isfinite(y) || (log_x && x <= 0) || (log_y && y <= 0) || (log_sample && y <= 0))
+        ++result.dropped;
       else kept.points.push_back({x, y});
     }
     result.series.push_back(std::move(kept));
@@ -52,16 +53,38 @@ void add_look(const Chart& chart, const std::string& output, bool svg, std::stri
   const double scale = std::min(chart.width / 1200.0, chart.height / 800.0);
   const int font = std::max(6, static_cast<int>(std::lround(18 * scale)));
   const std::string size = std::to_string(chart.width) + "," + std::to_string(chart.height);
-  text += svg ? "set terminal svg noenhanced size " + size + " background rgb '#ffffff' font 'DejaVu Sans," + std::to_string(font) + "'\n"
-              : "set terminal pngcairo noenhanced size " + size + " background rgb '#ffffff' font 'DejaVu Sans," + std::to_string(std::max(5, font * 3 / 4)) + "'\n";
+  text += svg ? "set terminal svg noenhanced size " + size + " background rgb '#ffffff' font 'DejaVu Sans," +
+                    std::to_string(font) + "'\n"
+              : "set terminal pngcairo noenhanced size " + size + " background rgb '#ffffff' font 'DejaVu Sans," +
+                    std::to_string(std::max(5, font * 3 / 4)) + "'\n";
   text += "set output " + gnuplot_quoted(output) + "\n";
-  text += "set encoding utf8\nset border 3 lc rgb '#404040' lw 1.2\nset tics nomirror out scale 0.6 textcolor rgb '#303030'\n"
-          "set grid back lc rgb '#dcdcdc' lw 0.8 lt 1\nset rmargin 3\nset key top right reverse Left samplen 2.2 spacing 1.25 textcolor rgb '#303030'\n";
-  if (!chart.title.empty()) text += "set title " + gnuplot_quoted(chart.title) + " font 'DejaVu Sans" + (svg ? "," : ":Bold,") + std::to_string(font) + "' textcolor rgb '#202020'\n";
+  text +=
+      "set encoding utf8\nset border 3 lc rgb '#404040' lw 1.2\nset tics nomirror out scale 0.6 textcolor rgb "
+      "'#303030'\n"
+      "set grid back lc rgb '#dcdcdc' lw 0.8 lt 1\nset rmargin 3\nset key top right reverse Left samplen 2.2 spacing "
+      "1.25 textcolor rgb '#303030'\n";
+  if (!chart.title.empty())
+    text += "set title " + gnuplot_quoted(chart.title) + " font 'DejaVu Sans" + (svg ? "," : ":Bold,") +
+            std::to_string(font) + "' textcolor rgb '#202020'\n";
   text += "set xlabel " + gnuplot_quoted(chart.x_label) + "\nset ylabel " + gnuplot_quoted(chart.y_label) + "\n";
   if (chart.log_x && chart.kind != ChartKind::bars) text += "set logscale x 10\n";
   if (chart.log_y) text += "set logscale y 10\n";
-  if (chart.log_x || chart.log_y) text += "set grid mxtics mytics lc rgb '#dcdcdc' lw 0.8 lt 1, lc rgb '#eeeeee' lw 0.6 lt 1\n";
+  if (chart.log_x || chart.log_y)
+    text += "set grid mxtics mytics lc rgb '#dcdcdc' lw 0.8 lt 1, lc rgb '#eeeeee' lw 0.6 lt 1\n";
+}
+
+/// Numbers along a short log axis, from 10^a to 10^b: 1, 2 and 5 times the powers of ten.
+std::string short_log_tics(const char* axis, double a, double b) {
+  std::string tics;
+  for (int power = static_cast<int>(std::floor(a)); power <= static_cast<int>(std::ceil(b)); ++power)
+    for (int digit : {1, 2, 5}) {
+      const double exponent = power + std::log10(digit);
+      if (exponent < a || exponent > b) continue;
+      char label[32];
+      std::snprintf(label, sizeof label, "%g", digit * std::pow(10, power));
+      tics += (tics.empty() ? "\"" : ", \"") + std::string(label) + "\" " + number(digit * std::pow(10, power));
+    }
+  return std::string("set ") + axis + "tics (" + tics + ")\n";
 }
 
 /// One axis' range with a little to spare; on a log axis at least most of a decade.
@@ -70,14 +93,17 @@ std::string range_text(const char* axis, double low, double high, bool log, bool
     double a = std::log10(low), b = std::log10(high);
     const double spare = std::max(0.06 * (b - a), 0.15);
     a = std::max(a - spare, -307.0), b = std::min(b + spare, 307.0);
-    const std::string powers = a < -3.5 || b > 5.5 ? std::string("set format ") + axis + " '1e%L'\n" : "";  // not 0.000000010
+    std::string powers;
+    if (b - a < 2) powers = short_log_tics(axis, a, b);
+    else if (a < -3.5 || b > 5.5) powers = std::string("set format ") + axis + " '1e%L'\n";  // not 0.000000010
     return powers + "set " + axis + "range [" + number(std::pow(10, a)) + ":" + number(std::pow(10, b)) + "]\n";
   }
   const double size = std::max(std::abs(low), std::abs(high));
   double spare = 0.05 * high - 0.05 * low;
   if (!(spare > 1e-12 * size)) spare = size > 0 ? 0.1 * size : 1;
   const double limit = 1.6e308;
-  double from = from_zero && low >= 0 ? 0 : std::max(low - spare, -limit), to = from_zero && high <= 0 ? 0 : std::min(high + spare, limit);
+  double from = from_zero && low >= 0 ? 0 : std::max(low - spare, -limit),
+         to = from_zero && high <= 0 ? 0 : std::min(high + spare, limit);
   if (!(from < to)) from -= 1, to += 1;
   return std::string("set ") + axis + "range [" + number(from) + ":" + number(to) + "]\n";
 }
@@ -95,9 +121,11 @@ void add_references(const Chart& chart, std::string& text) {
     const std::string at = number(line.at);
     const std::string from = level ? "graph 0, first " + at : "first " + at + ", graph 0";
     const std::string to = level ? "graph 1, first " + at : "first " + at + ", graph 1";
-    text += "set arrow " + std::to_string(tag) + " from " + from + " to " + to + " nohead front lw 1.6 dt 2 lc rgb '#a02020'\n";
+    text += "set arrow " + std::to_string(tag) + " from " + from + " to " + to +
+            " nohead front lw 1.6 dt 2 lc rgb '#a02020'\n";
     if (!line.label.empty())
-      text += "set label " + std::to_string(tag) + " " + gnuplot_quoted(line.label) + " at " + (level ? "graph 0.012, first " + at : "first " + at + ", graph 0.97") +
+      text += "set label " + std::to_string(tag) + " " + gnuplot_quoted(line.label) + " at " +
+              (level ? "graph 0.012, first " + at : "first " + at + ", graph 0.97") +
               (level ? " left offset 0,0.55" : " left offset 0.6,0") + " front textcolor rgb '#a02020'\n";
     ++tag;
   }
@@ -124,8 +152,10 @@ void add_points(const Chart& chart, const Drawable& data, std::string& text) {
       x.take(point[0]), y.take(point[1]);
     }
     text += "EOD\n";
-    const bool line = chart.kind == ChartKind::lines, marked = !line || (chart.markers && series.points.size() <= most_marked);
-    const std::string look = line ? (marked ? "linespoints lw 2.2 pt 7 ps 0.9" : "lines lw 2.2") : "points pt 7 ps 0.75";
+    const bool line = chart.kind == ChartKind::lines,
+               marked = !line || (chart.markers && series.points.size() <= most_marked);
+    const std::string look =
+        line ? (marked ? "linespoints lw 2.2 pt 7 ps 0.9" : "lines lw 2.2") : "points pt 7 ps 0.75";
     parts.push_back(block + " using 1:2 with " + look + " lc rgb '" + colour + "' " + title_of(series.name));
   }
   for (const ChartReference& line : chart.references) {
@@ -156,15 +186,19 @@ void add_bars(const Chart& chart, const Drawable& data, std::string& text) {
     const std::string block = "$data" + std::to_string(i);
     text += block + " << EOD\n";
     for (const auto& point : series.points) {
-      text += number(point[0] + 1 - 0.4 + (static_cast<double>(i) + 0.5) * width) + " " + number(point[1]) + " " + number(0.92 * width) + "\n";
+      text += number(point[0] + 1 - 0.4 + (static_cast<double>(i) + 0.5) * width) + " " + number(point[1]) + " " +
+              number(0.92 * width) + "\n";
       y.take(point[1]);
     }
     text += "EOD\n";
-    parts.push_back(block + " using 1:2:3 with boxes fs solid 0.9 noborder lc rgb '" + palette[i % palette.size()] + "' " + title_of(series.name));
+    parts.push_back(block + " using 1:2:3 with boxes fs solid 0.9 noborder lc rgb '" + palette[i % palette.size()] +
+                    "' " + title_of(series.name));
   }
   text += "set grid noxtics nomxtics\nset xtics scale 0 (";
   for (std::size_t i = 0; i < most; ++i)
-    text += std::string(i ? ", " : "") + gnuplot_quoted(i < chart.categories.size() ? without_formats(chart.categories[i]) : std::to_string(i + 1)) + " " + std::to_string(i + 1);
+    text += std::string(i ? ", " : "") +
+            gnuplot_quoted(i < chart.categories.size() ? without_formats(chart.categories[i]) : std::to_string(i + 1)) +
+            " " + std::to_string(i + 1);
   text += ")\nset xrange [0.4:" + number(static_cast<double>(most) + 0.6) + "]\n";
   for (const ChartReference& line : chart.references)
     if (line.across == ChartReference::Across::horizontal && (!chart.log_y || line.at > 0)) y.take(line.at);
@@ -189,14 +223,16 @@ void add_histogram(const Chart& chart, const Drawable& data, std::string& text) 
       const auto edge = [&](std::size_t e) { return chart.log_x ? std::pow(10, bins.edges[e]) : bins.edges[e]; };
       // A log axis cannot show an empty bin: it is left out there.
       if (chart.log_y && bins.counts[k] == 0) continue;
-      text += number(0.5 * edge(k) + 0.5 * edge(k + 1)) + " " + std::to_string(bins.counts[k]) + " " + number(edge(k)) + " " + number(edge(k + 1)) + "\n";
+      text += number(0.5 * edge(k) + 0.5 * edge(k + 1)) + " " + std::to_string(bins.counts[k]) + " " + number(edge(k)) +
+              " " + number(edge(k + 1)) + "\n";
       x.take(edge(k)), x.take(edge(k + 1));
       tallest = std::max(tallest, static_cast<double>(bins.counts[k]));
     }
     text += "EOD\n";
     const std::string colour = palette[i % palette.size()];
-    parts.push_back(block + " using 1:2:3:4:(" + (chart.log_y ? "0.5" : "0") + "):2 with boxxyerror fs " + (many ? "transparent solid 0.45" : "solid 0.85") +
-                    " border rgb '#ffffff' lc rgb '" + colour + "' " + title_of(data.series[i].name));
+    parts.push_back(block + " using 1:2:3:4:(" + (chart.log_y ? "0.5" : "0") + "):2 with boxxyerror fs " +
+                    (many ? "transparent solid 0.45" : "solid 0.85") + " border rgb '#ffffff' lc rgb '" + colour +
+                    "' " + title_of(data.series[i].name));
   }
   for (const ChartReference& line : chart.references)
     if (line.across == ChartReference::Across::horizontal) tallest = std::max(tallest, line.at);

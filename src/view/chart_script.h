@@ -1,4 +1,5 @@
-// A chart as a gnuplot script with its data inline. Texts become quoted strings in which nothing is an order to gnuplot.
+// A chart as a gnuplot script with its data inline. Texts become quoted strings in which nothing is an order to
+// gnuplot.
 #pragma once
 
 #include <string>
@@ -15,7 +16,8 @@ struct ChartScript {
 /// `output`: the file that gnuplot writes; `svg`: its kind, else PNG.
 ChartScript chart_script(const Chart& chart, const std::string& output, bool svg);
 
-/// `text` in double quotes for gnuplot: quotes, backslashes, controls and the marks of enhanced text lose their meaning.
+/// `text` in double quotes for gnuplot: quotes, backslashes, controls and the marks of enhanced text lose their
+/// meaning.
 std::string gnuplot_quoted(const std::string& text);
 
 }  // namespace tendril

@@ -1,5 +1,5 @@
-// Colours of values. The maps are computed, not tabulated by hand: paths through OKLab (B. Ottosson, 2020), a space whose
-// lightness follows the eye, so that equal steps of a value look like equal steps. Never a rainbow.
+// Colours of values. The maps are computed, not tabulated by hand: paths through OKLab (B. Ottosson, 2020), a space
+// whose lightness follows the eye, so that equal steps of a value look like equal steps. Never a rainbow.
 #pragma once
 
 #include <array>
@@ -37,8 +37,8 @@ struct ColourRange {
   Rgb colour(double value) const;
 };
 
-/// The range that `picture.scale` asks for, from its tubes' values where it leaves the ends open. The limit of a clearance
-/// scale lies within the range. A range of no width is widened about its value.
+/// The range that `picture.scale` asks for, from its tubes' values where it leaves the ends open. The limit of a
+/// clearance scale lies within the range. A range of no width is widened about its value.
 ColourRange settled_range(const Picture& picture);
 
 }  // namespace tendril

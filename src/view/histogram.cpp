@@ -11,7 +11,8 @@ constexpr double most_bins = 200;
 /// Of sorted values, linear between neighbours.
 double quantile(const std::vector<double>& sorted, double share) {
   const double at = share * static_cast<double>(sorted.size() - 1);
-  const std::size_t i = std::min(static_cast<std::size_t>(at), sorted.size() - 1), next = std::min(i + 1, sorted.size() - 1);
+  const std::size_t i = std::min(static_cast<std::size_t>(at), sorted.size() - 1),
+                    next = std::min(i + 1, sorted.size() - 1);
   return sorted[i] + (at - static_cast<double>(i)) * (sorted[next] - sorted[i]);
 }
 

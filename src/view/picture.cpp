@@ -56,7 +56,8 @@ void check_tube(const PictureTube& tube) {
   if (!tube.values.empty() && tube.values.size() != tube.points.size())
     refuse(who + std::to_string(tube.values.size()) + " values for " + std::to_string(tube.points.size()) + " points");
   const auto good = [](double radius) { return std::isfinite(radius) && radius > 0; };
-  const bool radii_good = tube.radii.empty() ? good(tube.radius) : std::all_of(tube.radii.begin(), tube.radii.end(), good);
+  const bool radii_good =
+      tube.radii.empty() ? good(tube.radius) : std::all_of(tube.radii.begin(), tube.radii.end(), good);
   if (!radii_good) refuse(who + "a radius is not a positive number");
 }
 
@@ -72,7 +73,8 @@ void check_marks(const Picture& picture) {
   for (const PictureHold& hold : picture.holds) {
     const std::string who = quoted("hold", hold.label);
     check_finite(hold.frame.at, who);
-    if (!hold.frame.rotation.coeffs().allFinite() || hold.frame.rotation.norm() < 1e-6) refuse(who + "its frame is not a rotation");
+    if (!hold.frame.rotation.coeffs().allFinite() || hold.frame.rotation.norm() < 1e-6)
+      refuse(who + "its frame is not a rotation");
     if (!std::isfinite(hold.radius) || hold.radius <= 0) refuse(who + "its radius is not a positive number");
   }
   for (const PictureArrow& arrow : picture.arrows) {
@@ -88,15 +90,15 @@ void check_marks(const Picture& picture) {
   for (const PicturePath& path : picture.paths) {
     const std::string who = quoted("path", path.name);
     for (const Vec3& point : path.points) check_finite(point, who);
-    if (!(path.width >= 0.25 && path.width <= 50)) refuse(who + "width " + std::to_string(path.width) + " pixels, expected 0.25 ... 50");
+    if (!(path.width >= 0.25 && path.width <= 50))
+      refuse(who + "width " + std::to_string(path.width) + " pixels, expected 0.25 ... 50");
   }
 }
 
 bool shows_something(const Picture& picture) {
   if (!picture.tubes.empty()) return true;
-  const bool surface = std::any_of(picture.surfaces.begin(), picture.surfaces.end(), [](const PictureSurface& s) {
-    return !s.triangles.empty() && !s.vertices.empty();
-  });
+  const bool surface = std::any_of(picture.surfaces.begin(), picture.surfaces.end(),
+                                   [](const PictureSurface& s) { return !s.triangles.empty() && !s.vertices.empty(); });
   const bool path = std::any_of(picture.paths.begin(), picture.paths.end(),
                                 [](const PicturePath& p) { return p.points.size() >= 2; });
   return surface || path;

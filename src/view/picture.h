@@ -1,8 +1,8 @@
 // A picture as plain data, and the one call that draws it into a PNG file.
 //
-// Nothing here knows of scenes, solvers or OpenGL. Lengths are metres in world axes (z up in the named views); values on
-// tubes are numbers in the unit that the colour bar names. Drawing happens in a module that is loaded on the first call of
-// save_picture: a program that saves no picture pays nothing for it.
+// Nothing here knows of scenes, solvers or OpenGL. Lengths are metres in world axes (z up in the named views); values
+// on tubes are numbers in the unit that the colour bar names. Drawing happens in a module that is loaded on the first
+// call of save_picture: a program that saves no picture pays nothing for it.
 #pragma once
 
 #include <array>
@@ -35,23 +35,23 @@ enum class SurfaceStyle { ghost, solid, veil };
 /// Triangles that name a missing or non-finite vertex are left out, and counted in the report.
 struct PictureSurface {
   std::string name;
-  std::span<const Vec3> vertices;                           ///< m, in the mesh's own axes
-  std::span<const std::array<std::int32_t, 3>> triangles;   ///< 0-based
+  std::span<const Vec3> vertices;                          ///< m, in the mesh's own axes
+  std::span<const std::array<std::int32_t, 3>> triangles;  ///< 0-based
   std::shared_ptr<const void> owner;
-  Frame pose;                                               ///< mesh axes to world
+  Frame pose;  ///< mesh axes to world
   SurfaceStyle style = SurfaceStyle::ghost;
-  double share = 0.2;                                       ///< opacity where it is a veil, 0.05 ... 0.6
+  double share = 0.2;  ///< opacity where it is a veil, 0.05 ... 0.6
   Rgb colour{0.76f, 0.75f, 0.73f};
-  bool edges = true;                                        ///< draw creases above 30 degrees and open borders
+  bool edges = true;  ///< draw creases above 30 degrees and open borders
 };
 
 /// A rod at its true radius with round ends. `values`, one per point, are coloured by Picture::scale; empty: `colour`.
 struct PictureTube {
   std::string name;
-  std::vector<Vec3> points;      ///< centre line, m, at least 2; consecutive equal points are joined
-  double radius = 0;             ///< m
-  std::vector<double> radii;     ///< m, one per point, for a section that varies; empty: `radius`
-  std::vector<double> values;    ///< in ColourScale::unit; NaN where unknown (drawn grey)
+  std::vector<Vec3> points;    ///< centre line, m, at least 2; consecutive equal points are joined
+  double radius = 0;           ///< m
+  std::vector<double> radii;   ///< m, one per point, for a section that varies; empty: `radius`
+  std::vector<double> values;  ///< in ColourScale::unit; NaN where unknown (drawn grey)
   Rgb colour{0.20f, 0.42f, 0.65f};
 };
 
@@ -66,20 +66,20 @@ enum class LimitSide { none, below, above };
 
 struct ColourScale {
   ColourMeaning meaning = ColourMeaning::magnitude;
-  std::string name;                ///< "curvature"
-  std::string unit;                ///< "1/m"; the values are in this unit already
-  std::optional<double> low, high; ///< default: the smallest and largest value (diverging: symmetric about 0)
-  std::optional<double> limit;     ///< marked on the bar
+  std::string name;                    ///< "curvature"
+  std::string unit;                    ///< "1/m"; the values are in this unit already
+  std::optional<double> low, high;     ///< default: the smallest and largest value (diverging: symmetric about 0)
+  std::optional<double> limit;         ///< marked on the bar
   LimitSide broken = LimitSide::none;  ///< clearance with a limit: always `below`
 };
 
 /// Where and how a tube is held, drawn as a small collar (clamp), ball (pin) or open ring (guide).
 struct PictureHold {
   enum class Kind { clamp, pin, guide };
-  Frame frame;             ///< d3 along the tube
-  double radius = 0;       ///< of the tube there, m
+  Frame frame;        ///< d3 along the tube
+  double radius = 0;  ///< of the tube there, m
   Kind kind = Kind::clamp;
-  std::string label;       ///< empty: none
+  std::string label;  ///< empty: none
 };
 
 /// A force or direction, drawn with a constant size on the page.
@@ -95,8 +95,8 @@ struct PictureArrow {
 struct PictureLabel {
   Vec3 at = Vec3::Zero();
   std::optional<Vec3> to;
-  std::string text;          ///< "gap 6.2 mm"
-  bool alarm = false;        ///< red
+  std::string text;    ///< "gap 6.2 mm"
+  bool alarm = false;  ///< red
 };
 
 /// A thin line of constant width on the page: a path, a design before it settled.
@@ -104,14 +104,14 @@ struct PicturePath {
   std::string name;
   std::vector<Vec3> points;  ///< m
   Rgb colour{0.25f, 0.25f, 0.25f};
-  double width = 1.5;        ///< pixels
+  double width = 1.5;  ///< pixels
   bool dashed = false;
 };
 
 struct PictureCard {
   struct Row {
     std::string label, value;
-    bool alarm = false;      ///< value in red
+    bool alarm = false;  ///< value in red
   };
   std::string title;
   std::vector<Row> rows;
@@ -129,23 +129,23 @@ struct Picture {
   std::vector<PictureArrow> arrows;
   std::vector<PictureLabel> labels;
   std::vector<PicturePath> paths;
-  ColourScale scale;             ///< the bar is drawn when a tube has values
+  ColourScale scale;  ///< the bar is drawn when a tube has values
   PictureCard card;
 
   /// "iso", "front", "top", "side", "card": one to six, laid out in rows of two (one alone fills the picture).
   std::vector<std::string> views{"iso", "front", "top", "card"};
-  int width = 1600, height = 1200;   ///< pixels
+  int width = 1600, height = 1200;  ///< pixels
   /// What every view shows, with 10 % to spare on each side. Default: the tubes; without tubes, everything.
   std::optional<PictureBox> fit;
 };
 
 /// How the drawing went.
 struct PictureReport {
-  Status status = Status::solved;     ///< solved, cancelled or timeout; the file is written only when solved
-  double seconds = 0;                 ///< with loading the module, if this was the first picture
-  std::size_t triangles = 0;          ///< in the picture
-  std::size_t edges = 0;              ///< feature edges found
-  std::size_t left_out = 0;           ///< triangles that name a missing or non-finite vertex
+  Status status = Status::solved;  ///< solved, cancelled or timeout; the file is written only when solved
+  double seconds = 0;              ///< with loading the module, if this was the first picture
+  std::size_t triangles = 0;       ///< in the picture
+  std::size_t edges = 0;           ///< feature edges found
+  std::size_t left_out = 0;        ///< triangles that name a missing or non-finite vertex
   struct Step {
     std::string name;
     double seconds;
@@ -153,8 +153,9 @@ struct PictureReport {
   std::vector<Step> steps;
 };
 
-/// Throws UsageError unless `picture` can be drawn: sizes 16 ... 16384 pixels and at most 64 million of them, known views, something to show, finite
-/// numbers, as many values as points. The message says who, what was got and what was expected.
+/// Throws UsageError unless `picture` can be drawn: sizes 16 ... 16384 pixels and at most 64 million of them, known
+/// views, something to show, finite numbers, as many values as points. The message says who, what was got and what was
+/// expected.
 void check_picture(const Picture& picture);
 
 /// Draws and writes a PNG, whole or not at all; a missing folder is created. The same picture gives the same bytes.

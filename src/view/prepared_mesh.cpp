@@ -66,7 +66,8 @@ Joined joined(const PictureSurface& surface, const Vec3& origin) {
     Triangle t{};
     bool good = true;
     for (int k = 0; k < 3 && good; ++k) {
-      good = triangle[k] >= 0 && static_cast<std::size_t>(triangle[k]) < place.size() && place[triangle[k]] != 0xffffffff;
+      good =
+          triangle[k] >= 0 && static_cast<std::size_t>(triangle[k]) < place.size() && place[triangle[k]] != 0xffffffff;
       if (good) t[k] = place[triangle[k]];
     }
     if (!good) ++result.left_out;
@@ -153,7 +154,8 @@ bool is_feature(const Side* first, const Side* last, const std::vector<Vector3f>
     const float cosine = lead.dot(unit[first[1].face]);
     return (first->forward == first[1].forward ? -cosine : cosine) < crease_cosine;
   }
-  return std::any_of(first + 1, last, [&](const Side& side) { return std::abs(lead.dot(unit[side.face])) < crease_cosine; });
+  return std::any_of(first + 1, last,
+                     [&](const Side& side) { return std::abs(lead.dot(unit[side.face])) < crease_cosine; });
 }
 
 void add_edges(const Joined& mesh, const std::vector<Vector3f>& unit, const Corners& corners, PreparedMesh& result) {
@@ -168,9 +170,8 @@ void add_edges(const Joined& mesh, const std::vector<Vector3f>& unit, const Corn
       if (t[next] > place) sides.push_back({t[next], face, 3 * face + next, true});
       if (t[previous] > place) sides.push_back({t[previous], face, 3 * face + previous, false});
     }
-    std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-      return a.other != b.other ? a.other < b.other : a.face < b.face;
-    });
+    std::sort(sides.begin(), sides.end(),
+              [](const Side& a, const Side& b) { return a.other != b.other ? a.other < b.other : a.face < b.face; });
     for (std::size_t i = 0; i < sides.size();) {
       std::size_t end = i + 1;
       while (end < sides.size() && sides[end].other == sides[i].other) ++end;
@@ -187,7 +188,8 @@ void add_edges(const Joined& mesh, const std::vector<Vector3f>& unit, const Corn
 }
 
 /// Sorts groups of `size` indices by the grid cell of their middle, and lists the runs.
-std::vector<MeshPiece> sort_into_pieces(const std::vector<Vector3f>& positions, std::vector<std::uint32_t>& indices, int size) {
+std::vector<MeshPiece> sort_into_pieces(const std::vector<Vector3f>& positions, std::vector<std::uint32_t>& indices,
+                                        int size) {
   const std::size_t count = indices.size() / size;
   if (count == 0) return {};
   Vector3f low = Vector3f::Constant(INFINITY), high = Vector3f::Constant(-INFINITY);
@@ -199,7 +201,8 @@ std::vector<MeshPiece> sort_into_pieces(const std::vector<Vector3f>& positions, 
   for (std::size_t i = 0; i < count; ++i) {
     Vector3f middle = Vector3f::Zero();
     for (int k = 0; k < size; ++k) middle += positions[indices[i * size + k]];
-    const Eigen::Vector3i at = ((middle / static_cast<float>(size) - low).cwiseProduct(scale)).cast<int>().cwiseMax(0).cwiseMin(cells - 1);
+    const Eigen::Vector3i at =
+        ((middle / static_cast<float>(size) - low).cwiseProduct(scale)).cast<int>().cwiseMax(0).cwiseMin(cells - 1);
     cell[i] = static_cast<std::uint16_t>((at.z() * cells + at.y()) * cells + at.x());
     ++start[cell[i] + 1u];
   }
@@ -207,7 +210,8 @@ std::vector<MeshPiece> sort_into_pieces(const std::vector<Vector3f>& positions, 
   std::vector<MeshPiece> pieces;
   for (std::size_t c = 0; c + 1 < start.size(); ++c)
     if (start[c + 1] > start[c])
-      pieces.push_back({start[c] * size, (start[c + 1] - start[c]) * size, Vector3f::Constant(INFINITY), Vector3f::Constant(-INFINITY)});
+      pieces.push_back({start[c] * size, (start[c + 1] - start[c]) * size, Vector3f::Constant(INFINITY),
+                        Vector3f::Constant(-INFINITY)});
   std::vector<std::uint32_t> sorted(indices.size());
   for (std::size_t i = 0; i < count; ++i)
     std::memcpy(&sorted[std::size_t{start[cell[i]]++} * size], &indices[i * size], size * sizeof(std::uint32_t));

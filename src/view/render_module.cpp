@@ -13,7 +13,9 @@ std::filesystem::path module_folder() {
   if (const char* named = std::getenv("TENDRIL_MODULES"); named && *named) return named;
   std::error_code error;
   const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
-  if (error) throw UsageError("picture: cannot tell where the program lies (" + error.message() + "); set TENDRIL_MODULES to the folder of tendril_render.so");
+  if (error)
+    throw UsageError("picture: cannot tell where the program lies (" + error.message() +
+                     "); set TENDRIL_MODULES to the folder of tendril_render.so");
   return program.parent_path() / "modules";
 }
 
@@ -21,9 +23,12 @@ RenderPicture load() {
   const std::filesystem::path path = module_folder() / "tendril_render.so";
   std::error_code error;
   if (!std::filesystem::exists(path, error))
-    throw UsageError("picture: the drawing module '" + path.string() + "' is missing; build it or set TENDRIL_MODULES to its folder");
+    throw UsageError("picture: the drawing module '" + path.string() +
+                     "' is missing; build it or set TENDRIL_MODULES to its folder");
   void* handle = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (!handle) throw UsageError(std::string("picture: the drawing module cannot be loaded: ") + dlerror() + " (package libosmesa6)");
+  if (!handle)
+    throw UsageError(std::string("picture: the drawing module cannot be loaded: ") + dlerror() +
+                     " (package libosmesa6)");
   void* entry = dlsym(handle, render_entry);
   if (!entry) throw UsageError("picture: '" + path.string() + "' is not the drawing module: it has no " + render_entry);
   return reinterpret_cast<RenderPicture>(entry);

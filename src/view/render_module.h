@@ -8,10 +8,11 @@
 namespace tendril {
 
 /// The name of the module's entry, and its type. It writes the PNG's bytes into `png` and returns true; on failure it
-/// returns false and the reason stands in `error`. Stopped by the context: true, `png` empty and the status in `report`. Throws nothing.
+/// returns false and the reason stands in `error`. Stopped by the context: true, `png` empty and the status in
+/// `report`. Throws nothing.
 inline constexpr const char* render_entry = "tendril_render_picture";
-using RenderPicture = bool (*)(const Picture& picture, const RunContext& context, PictureReport& report, std::string& png,
-                               std::string& error);
+using RenderPicture = bool (*)(const Picture& picture, const RunContext& context, PictureReport& report,
+                               std::string& png, std::string& error);
 
 /// The entry of tendril_render.so, loaded on the first call. It is looked for in the folder that the environment's
 /// TENDRIL_MODULES names, else in `modules` beside the running program. Throws UsageError when it cannot be loaded.

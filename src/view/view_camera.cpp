@@ -33,7 +33,9 @@ std::vector<FitBall> fit_balls(const Picture& picture) {
   if (picture.fit) {
     const PictureBox& box = *picture.fit;
     for (int i = 0; i < 8; ++i)
-      balls.push_back({{i & 1 ? box.high.x() : box.low.x(), i & 2 ? box.high.y() : box.low.y(), i & 4 ? box.high.z() : box.low.z()}, 0});
+      balls.push_back(
+          {{i & 1 ? box.high.x() : box.low.x(), i & 2 ? box.high.y() : box.low.y(), i & 4 ? box.high.z() : box.low.z()},
+           0});
     return balls;
   }
   for (const PictureTube& tube : picture.tubes)

@@ -11,9 +11,9 @@ namespace tendril {
 /// Looks along -back; `right` and `up` are the page's axes. All three are unit vectors in world axes.
 struct ViewCamera {
   Vec3 right, up, back;
-  Vec3 centre = Vec3::Zero();   ///< shown in the middle of the page, m
+  Vec3 centre = Vec3::Zero();  ///< shown in the middle of the page, m
   double metres_per_pixel = 1;
-  double width = 1, height = 1; ///< pixels
+  double width = 1, height = 1;  ///< pixels
 
   /// x to the right and y down from the top left corner in pixels; z towards the eye in metres.
   Vec3 project(const Vec3& world) const;

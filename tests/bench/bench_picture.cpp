@@ -1,5 +1,6 @@
-// Seconds of a 1600 x 1200 sheet (three views and a card) over a surface of 1 M triangles, first cold: with loading the drawing
-// module, OSMesa's context, shaders, mesh preparation and PNG, without the file's writing. Then what its parts cost.
+// Seconds of a 1600 x 1200 sheet (three views and a card) over a surface of 1 M triangles, first cold: with loading the
+// drawing module, OSMesa's context, shaders, mesh preparation and PNG, without the file's writing. Then what its parts
+// cost.
 #include <benchmark/benchmark.h>
 
 #include <filesystem>
@@ -46,7 +47,12 @@ void chart_lines_svg(benchmark::State& state) {
 
 }  // namespace
 
-BENCHMARK(sheet_1M_cold)->Setup([](const benchmark::State&) { fine_picture(); })->Iterations(1)->Unit(benchmark::kMillisecond)->UseRealTime()->MeasureProcessCPUTime();
+BENCHMARK(sheet_1M_cold)
+    ->Setup([](const benchmark::State&) { fine_picture(); })
+    ->Iterations(1)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime()
+    ->MeasureProcessCPUTime();
 BENCHMARK(sheet_1M_warm)->Unit(benchmark::kMillisecond)->UseRealTime()->MeasureProcessCPUTime();
 BENCHMARK(sheet_8k_warm)->Unit(benchmark::kMillisecond)->UseRealTime()->MeasureProcessCPUTime();
 BENCHMARK(prepare_mesh_1M)->Unit(benchmark::kMillisecond)->UseRealTime();

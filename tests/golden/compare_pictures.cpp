@@ -14,11 +14,13 @@ Pixels read_png(const std::string& bytes) {
   png_image image;
   std::memset(&image, 0, sizeof image);
   image.version = PNG_IMAGE_VERSION;
-  if (!png_image_begin_read_from_memory(&image, bytes.data(), bytes.size())) throw UsageError(std::string("no PNG: ") + image.message);
+  if (!png_image_begin_read_from_memory(&image, bytes.data(), bytes.size()))
+    throw UsageError(std::string("no PNG: ") + image.message);
   image.format = PNG_FORMAT_RGB;
   Pixels pixels{static_cast<int>(image.width), static_cast<int>(image.height), {}};
   pixels.rgb.resize(PNG_IMAGE_SIZE(image));
-  if (!png_image_finish_read(&image, nullptr, pixels.rgb.data(), 0, nullptr)) throw UsageError(std::string("no PNG: ") + image.message);
+  if (!png_image_finish_read(&image, nullptr, pixels.rgb.data(), 0, nullptr))
+    throw UsageError(std::string("no PNG: ") + image.message);
   return pixels;
 }
 
@@ -31,7 +33,8 @@ std::string write_png(const Pixels& pixels) {
   png_alloc_size_t size = 0;
   png_image_write_to_memory(&image, nullptr, &size, 0, pixels.rgb.data(), 0, nullptr);
   std::string bytes(size, '\0');
-  if (!png_image_write_to_memory(&image, bytes.data(), &size, 0, pixels.rgb.data(), 0, nullptr)) throw UsageError(image.message);
+  if (!png_image_write_to_memory(&image, bytes.data(), &size, 0, pixels.rgb.data(), 0, nullptr))
+    throw UsageError(image.message);
   bytes.resize(size);
   return bytes;
 }

@@ -18,9 +18,9 @@ std::string write_png(const Pixels& pixels);
 
 struct Difference {
   bool same_size = true;
-  double mean = 0;          ///< of |difference| over all channels, 0 ... 255
-  double share = 0;         ///< of pixels with a channel off by more than `visible`
-  Pixels picture;           ///< the differences, five times as strong, on white
+  double mean = 0;   ///< of |difference| over all channels, 0 ... 255
+  double share = 0;  ///< of pixels with a channel off by more than `visible`
+  Pixels picture;    ///< the differences, five times as strong, on white
 
   static constexpr int visible = 24;
   /// Another processor may round a border pixel differently, but may not move a line or change a colour.

@@ -40,8 +40,7 @@ std::string drawn(const Golden& golden) {
 }  // namespace
 
 TEST_CASE("pictures look as they did") {
-  for (const Golden& golden : table)
-    DYNAMIC_SECTION(golden.name) {
+  for (const Golden& golden : table) DYNAMIC_SECTION(golden.name) {
       const std::filesystem::path kept = std::filesystem::path(GOLDEN_FOLDER) / (std::string(golden.name) + ".png");
       const std::string bytes = drawn(golden);
       if (std::getenv("TENDRIL_GOLDEN_UPDATE")) write_file(kept.string(), bytes);
@@ -51,7 +50,8 @@ TEST_CASE("pictures look as they did") {
         write_file((folder / (std::string(golden.name) + ".drawn.png")).string(), bytes);
         write_file((folder / (std::string(golden.name) + ".difference.png")).string(), write_png(difference.picture));
       }
-      INFO("mean difference " << difference.mean << ", share of pixels off " << difference.share << "; see " << DIFFERENCE_FOLDER);
+      INFO("mean difference " << difference.mean << ", share of pixels off " << difference.share << "; see "
+                              << DIFFERENCE_FOLDER);
       CHECK(difference.fits());
     }
 }
@@ -64,7 +64,9 @@ TEST_CASE("the comparison sees what an eye would see, and no less") {
   Pixels moved = good;  // by one pixel to the right
   for (int y = 0; y < good.height; ++y)
     for (int x = 1; x < good.width; ++x)
-      for (int k = 0; k < 3; ++k) moved.rgb[3 * (static_cast<std::size_t>(y) * good.width + x) + k] = good.rgb[3 * (static_cast<std::size_t>(y) * good.width + x - 1) + k];
+      for (int k = 0; k < 3; ++k)
+        moved.rgb[3 * (static_cast<std::size_t>(y) * good.width + x) + k] =
+            good.rgb[3 * (static_cast<std::size_t>(y) * good.width + x - 1) + k];
   CHECK_FALSE(difference_of(good, moved).fits());
   Pixels spot = good;  // a patch of 30 x 30 pixels
   for (int y = 100; y < 130; ++y)
@@ -80,7 +82,8 @@ TEST_CASE("the comparison sees what an eye would see, and no less") {
 }
 
 TEST_CASE("a tube keeps its true width on the page") {
-  // Radius 20 mm over 1040 mm that fill 10/12 of 600 pixels: 2 r = 19.2 pixels, with an outline of about 1 pixel on both sides.
+  // Radius 20 mm over 1040 mm that fill 10/12 of 600 pixels: 2 r = 19.2 pixels, with an outline of about 1 pixel on
+  // both sides.
   Picture picture = scenes::straight_hose();
   picture.labels.clear();
   picture.card = {};

@@ -20,21 +20,31 @@ std::vector<Vec3> smooth_curve(const std::vector<Vec3>& points, int samples) {
     const double t = u - k;
     const Vec3 &p1 = points[k], &p2 = points[k + 1];
     const Vec3 p0 = k > 0 ? points[k - 1] : Vec3(2 * p1 - p2), p3 = k + 2 <= spans ? points[k + 2] : Vec3(2 * p2 - p1);
-    curve.push_back(0.5 * (2 * p1 + t * (p2 - p0) + t * t * (2 * p0 - 5 * p1 + 4 * p2 - p3) + t * t * t * (3 * p1 - p0 - 3 * p2 + p3)));
+    curve.push_back(0.5 * (2 * p1 + t * (p2 - p0) + t * t * (2 * p0 - 5 * p1 + 4 * p2 - p3) +
+                           t * t * t * (3 * p1 - p0 - 3 * p2 + p3)));
   }
   return curve;
 }
 
 Frame end_frame(const std::vector<Vec3>& curve, bool start) {
   const std::size_t n = curve.size();
-  return start ? Frame::looking(curve[0], curve[1] - curve[0]) : Frame::looking(curve[n - 1], curve[n - 1] - curve[n - 2]);
+  return start ? Frame::looking(curve[0], curve[1] - curve[0])
+               : Frame::looking(curve[n - 1], curve[n - 1] - curve[n - 2]);
 }
 
 void add_hose(Picture& picture) {
   PictureTube hose;
   hose.name = "hose";
   hose.radius = 0.011;
-  hose.points = smooth_curve({{-0.30, 0.10, 0.34}, {-0.17, 0.085, 0.30}, {-0.02, 0.06, 0.24}, {0.12, 0.04, 0.152}, {0.26, 0.0, 0.121}, {0.38, -0.06, 0.16}, {0.47, -0.10, 0.30}, {0.47, -0.12, 0.42}}, 240);
+  hose.points = smooth_curve({{-0.30, 0.10, 0.34},
+                              {-0.17, 0.085, 0.30},
+                              {-0.02, 0.06, 0.24},
+                              {0.12, 0.04, 0.152},
+                              {0.26, 0.0, 0.121},
+                              {0.38, -0.06, 0.16},
+                              {0.47, -0.10, 0.30},
+                              {0.47, -0.12, 0.42}},
+                             240);
   for (std::size_t i = 0; i < hose.points.size(); ++i) {
     const double t = static_cast<double>(i) / (hose.points.size() - 1.0);
     hose.values.push_back(3 + 28 * std::pow(std::abs(t - 0.56), 1.2) / std::pow(0.56, 1.2) + 4 * std::sin(9 * t));
@@ -50,13 +60,20 @@ void add_hose(Picture& picture) {
   cable.name = "cable";
   cable.radius = 0.004;
   cable.colour = {0.85f, 0.45f, 0.10f};
-  cable.points = smooth_curve({{-0.30, -0.12, 0.20}, {-0.10, -0.10, 0.13}, {0.10, -0.12, 0.11}, {0.30, -0.16, 0.14}, {0.45, -0.16, 0.25}}, 120);
+  cable.points = smooth_curve(
+      {{-0.30, -0.12, 0.20}, {-0.10, -0.10, 0.13}, {0.10, -0.12, 0.11}, {0.30, -0.16, 0.14}, {0.45, -0.16, 0.25}}, 120);
   picture.tubes.push_back(std::move(cable));
 
   picture.scale = {ColourMeaning::clearance, "clearance", "mm", std::nullopt, std::nullopt, 8.0, LimitSide::below};
   picture.card.title = "Coolant hose in the engine bay";
-  picture.card.rows = {{"length", "1 012.4 mm"}, {"smallest bend radius", "84.2 mm"}, {"smallest clearance", "1.2 mm (required 8 mm)", true},
-                       {"residual", "3.1e-10 N"}, {"discretisation error", "0.012 mm"}, {"solved in", "0.41 ms"}, {"seed", "1"}, {"version", "0.1.0"}};
+  picture.card.rows = {{"length", "1 012.4 mm"},
+                       {"smallest bend radius", "84.2 mm"},
+                       {"smallest clearance", "1.2 mm (required 8 mm)", true},
+                       {"residual", "3.1e-10 N"},
+                       {"discretisation error", "0.012 mm"},
+                       {"solved in", "0.41 ms"},
+                       {"seed", "1"},
+                       {"version", "0.1.0"}};
 }
 
 Mesh ribbed_block(int ribs) {
@@ -73,8 +90,10 @@ Mesh ribbed_block(int ribs) {
 
 void Mesh::box(const Vec3& low, const Vec3& high) {
   const std::int32_t base = static_cast<std::int32_t>(vertices.size());
-  for (int i = 0; i < 8; ++i) vertices.push_back({i & 1 ? high.x() : low.x(), i & 2 ? high.y() : low.y(), i & 4 ? high.z() : low.z()});
-  static constexpr int quads[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+  for (int i = 0; i < 8; ++i)
+    vertices.push_back({i & 1 ? high.x() : low.x(), i & 2 ? high.y() : low.y(), i & 4 ? high.z() : low.z()});
+  static constexpr int quads[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
+                                      {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
   for (const auto& q : quads) {
     triangles.push_back({base + q[0], base + q[1], base + q[2]});
     triangles.push_back({base + q[0], base + q[2], base + q[3]});
@@ -103,7 +122,8 @@ void Mesh::sphere(const Vec3& centre, double radius, int rings) {
   for (int k = 1; k < rings; ++k)
     for (int i = 0; i < sides; ++i) {
       const double up = pi * k / rings - 0.5 * pi, around = 2 * pi * i / sides;
-      vertices.push_back(centre + radius * Vec3(std::cos(up) * std::cos(around), std::cos(up) * std::sin(around), std::sin(up)));
+      vertices.push_back(centre +
+                         radius * Vec3(std::cos(up) * std::cos(around), std::cos(up) * std::sin(around), std::sin(up)));
     }
   const std::int32_t south = static_cast<std::int32_t>(vertices.size()), north = south + 1;
   vertices.push_back(centre - radius * Vec3::UnitZ()), vertices.push_back(centre + radius * Vec3::UnitZ());
@@ -118,7 +138,8 @@ void Mesh::sphere(const Vec3& centre, double radius, int rings) {
   }
 }
 
-void Mesh::perforated_plate(double x, double thickness, double y0, double z0, double pitch, int across, int upward, double radius) {
+void Mesh::perforated_plate(double x, double thickness, double y0, double z0, double pitch, int across, int upward,
+                            double radius) {
   constexpr int sides = 32;
   for (int u = 0; u < across; ++u)
     for (int v = 0; v < upward; ++v) {
@@ -126,19 +147,23 @@ void Mesh::perforated_plate(double x, double thickness, double y0, double z0, do
       const std::int32_t base = static_cast<std::int32_t>(vertices.size());
       for (double side : {x, x + thickness})
         for (int i = 0; i < sides; ++i) {
-          const double angle = 2 * pi * i / sides, c = std::cos(angle), s = std::sin(angle), square = 0.5 * pitch / std::max(std::abs(c), std::abs(s));
+          const double angle = 2 * pi * i / sides, c = std::cos(angle), s = std::sin(angle),
+                       square = 0.5 * pitch / std::max(std::abs(c), std::abs(s));
           vertices.push_back({side, cy + radius * c, cz + radius * s});
           vertices.push_back({side, cy + square * c, cz + square * s});
         }
       for (int i = 0; i < sides; ++i) {
         const std::int32_t a = base + 2 * i, b = base + 2 * ((i + 1) % sides), over = 2 * sides;
         triangles.push_back({a, a + 1, b}), triangles.push_back({b, a + 1, b + 1});
-        triangles.push_back({a + over, b + over, a + over + 1}), triangles.push_back({b + over, b + over + 1, a + over + 1});
+        triangles.push_back({a + over, b + over, a + over + 1}),
+            triangles.push_back({b + over, b + over + 1, a + over + 1});
         triangles.push_back({a, b, a + over}), triangles.push_back({b, b + over, a + over});
         const Vec3 middle = 0.5 * (vertices[a + 1] + vertices[b + 1]);
         const double far_y = y0 + across * pitch, far_z = z0 + upward * pitch, near = 1e-9;
-        const bool border = std::abs(middle.y() - y0) < near || std::abs(middle.y() - far_y) < near || std::abs(middle.z() - z0) < near || std::abs(middle.z() - far_z) < near;
-        if (border) triangles.push_back({a + 1, a + 1 + over, b + 1}), triangles.push_back({b + 1, a + 1 + over, b + 1 + over});
+        const bool border = std::abs(middle.y() - y0) < near || std::abs(middle.y() - far_y) < near ||
+                            std::abs(middle.z() - z0) < near || std::abs(middle.z() - far_z) < near;
+        if (border)
+          triangles.push_back({a + 1, a + 1 + over, b + 1}), triangles.push_back({b + 1, a + 1 + over, b + 1 + over});
       }
     }
 }
@@ -149,7 +174,9 @@ void Mesh::wavy_sheet(const Vec3& corner, double size, double height, int n) {
     for (int k = 0; k <= n; ++k) {
       const double x = size * i / n, y = size * k / n;
       const double folds = std::abs(std::fmod(x / size * 18, 1.0) - 0.5);
-      vertices.push_back(corner + Vec3(x, y, height * (std::sin(13 * x / size) * std::cos(11 * y / size) + 0.3 * std::min(folds * 4, 1.0))));
+      vertices.push_back(
+          corner +
+          Vec3(x, y, height * (std::sin(13 * x / size) * std::cos(11 * y / size) + 0.3 * std::min(folds * 4, 1.0))));
     }
   for (int i = 0; i < n; ++i)
     for (int k = 0; k < n; ++k) {
@@ -209,7 +236,8 @@ Picture hose_behind_solid() {
   for (int i = 0; i <= 40; ++i) path.points.push_back({-0.42 + 0.021 * i, -0.05, 0.10 + 0.02 * std::sin(0.3 * i)});
   picture.paths.push_back(std::move(path));
   picture.tubes.push_back(std::move(hose));
-  picture.scale = {ColourMeaning::diverging, "bending about d1", "1/m", std::nullopt, std::nullopt, std::nullopt, LimitSide::none};
+  picture.scale = {ColourMeaning::diverging, "bending about d1", "1/m", std::nullopt, std::nullopt, std::nullopt,
+                   LimitSide::none};
   picture.card.title = "Behind the arm";
   return picture;
 }
@@ -231,7 +259,8 @@ Picture envelope_of_hose() {
   picture.surfaces.back().edges = false;
   picture.surfaces.back().share = 0.25;
   picture.holds.push_back({end_frame(hose.points, true), 0.010, PictureHold::Kind::pin, "pin"});
-  picture.holds.push_back({Frame::looking(hose.points[60], hose.points[61] - hose.points[59]), 0.016, PictureHold::Kind::guide, "guide"});
+  picture.holds.push_back(
+      {Frame::looking(hose.points[60], hose.points[61] - hose.points[59]), 0.016, PictureHold::Kind::guide, "guide"});
   picture.tubes.push_back(std::move(hose));
   picture.scale = {ColourMeaning::magnitude, "curvature", "1/m", 0.0, 16.0, 12.5, LimitSide::above};
   return picture;

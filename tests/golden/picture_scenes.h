@@ -17,8 +17,10 @@ struct Mesh {
   void box(const Vec3& low, const Vec3& high);
   void cylinder(const Vec3& from, const Vec3& to, double radius, int sides = 40);
   void sphere(const Vec3& centre, double radius, int rings = 24);
-  /// A plate in the plane x = `x`, thickness along x, with round holes of `radius` in the middle of every cell of size `pitch`.
-  void perforated_plate(double x, double thickness, double y0, double z0, double pitch, int across, int upward, double radius);
+  /// A plate in the plane x = `x`, thickness along x, with round holes of `radius` in the middle of every cell of size
+  /// `pitch`.
+  void perforated_plate(double x, double thickness, double y0, double z0, double pitch, int across, int upward,
+                        double radius);
   /// A wavy sheet over [0, size]^2 at height z with about 2 n^2 triangles.
   void wavy_sheet(const Vec3& corner, double size, double height, int n);
 };

@@ -27,7 +27,8 @@ void Canvas::blend(int x, int y, const Rgb& colour, double share) {
   if (x < clip_.x || y < clip_.y || x >= clip_.x + clip_.width || y >= clip_.y + clip_.height) return;
   std::uint8_t* pixel = image_.at(x, y);
   const float wanted[3] = {colour.r, colour.g, colour.b};
-  for (int k = 0; k < 3; ++k) pixel[k] = static_cast<std::uint8_t>(std::lround(pixel[k] + share * (255 * wanted[k] - pixel[k])));
+  for (int k = 0; k < 3; ++k)
+    pixel[k] = static_cast<std::uint8_t>(std::lround(pixel[k] + share * (255 * wanted[k] - pixel[k])));
 }
 
 template <class Coverage>
@@ -52,7 +53,8 @@ void Canvas::frame(const Rect& rect, const Rgb& colour, double thickness, double
 
 void Canvas::line(Point from, Point to, double thickness, const Rgb& colour, double opacity) {
   const double dx = to.x - from.x, dy = to.y - from.y, square = dx * dx + dy * dy;
-  const Rect bounds{std::min(from.x, to.x) - thickness, std::min(from.y, to.y) - thickness, std::abs(dx) + 2 * thickness, std::abs(dy) + 2 * thickness};
+  const Rect bounds{std::min(from.x, to.x) - thickness, std::min(from.y, to.y) - thickness,
+                    std::abs(dx) + 2 * thickness, std::abs(dy) + 2 * thickness};
   shade(bounds, colour, opacity, [&](double x, double y) {
     const double t = square > 0 ? std::clamp(((x - from.x) * dx + (y - from.y) * dy) / square, 0.0, 1.0) : 0;
     return covered(std::hypot(x - from.x - t * dx, y - from.y - t * dy) - 0.5 * thickness);
@@ -87,8 +89,10 @@ void Canvas::text(const std::string& utf8, Point at, const Type& type) {
   if (type.halo > 0) {
     const int reach = static_cast<int>(std::ceil(type.halo));
     // The strongest of the letters' coverage within reach, gathered first so that overlapping letters do not add up.
-    const int left = static_cast<int>(std::floor(x - type.size)) - reach, top = static_cast<int>(at.y - 1.5 * type.size) - reach;
-    const int columns = static_cast<int>(width + 2 * type.size) + 2 * reach + 2, rows = static_cast<int>(2.2 * type.size) + 2 * reach + 2;
+    const int left = static_cast<int>(std::floor(x - type.size)) - reach,
+              top = static_cast<int>(at.y - 1.5 * type.size) - reach;
+    const int columns = static_cast<int>(width + 2 * type.size) + 2 * reach + 2,
+              rows = static_cast<int>(2.2 * type.size) + 2 * reach + 2;
     std::vector<std::uint8_t> strongest(static_cast<std::size_t>(columns) * rows, 0);
     font.draw(utf8, type.size, x, at.y, [&](int px, int py, std::uint8_t coverage) {
       for (int v = -reach; v <= reach; ++v)
@@ -102,12 +106,16 @@ void Canvas::text(const std::string& utf8, Point at, const Type& type) {
     });
     for (int cy = 0; cy < rows; ++cy)
       for (int cx = 0; cx < columns; ++cx)
-        if (const std::uint8_t cell = strongest[static_cast<std::size_t>(cy) * columns + cx]) blend(left + cx, top + cy, paper, 0.85 * cell / 255.0);
+        if (const std::uint8_t cell = strongest[static_cast<std::size_t>(cy) * columns + cx])
+          blend(left + cx, top + cy, paper, 0.85 * cell / 255.0);
   }
-  font.draw(utf8, type.size, x, at.y, [&](int px, int py, std::uint8_t coverage) { blend(px, py, type.colour, coverage / 255.0); });
+  font.draw(utf8, type.size, x, at.y,
+            [&](int px, int py, std::uint8_t coverage) { blend(px, py, type.colour, coverage / 255.0); });
 }
 
-double Canvas::text_width(const std::string& utf8, double size, bool bold) const { return (bold ? bold_ : plain_).width(utf8, size); }
+double Canvas::text_width(const std::string& utf8, double size, bool bold) const {
+  return (bold ? bold_ : plain_).width(utf8, size);
+}
 
 std::string Canvas::fitted(const std::string& utf8, double size, double width, bool bold) const {
   if (text_width(utf8, size, bold) <= width) return utf8;

@@ -1,4 +1,5 @@
-// Flat drawing over an image: lines, boxes, text, all with smooth borders. Coordinates in pixels from the top left corner.
+// Flat drawing over an image: lines, boxes, text, all with smooth borders. Coordinates in pixels from the top left
+// corner.
 #pragma once
 
 #include <array>
@@ -17,7 +18,9 @@ struct Point {
 
 struct Rect {
   double x, y, width, height;
-  bool meets(const Rect& o) const { return x < o.x + o.width && o.x < x + width && y < o.y + o.height && o.y < y + height; }
+  bool meets(const Rect& o) const {
+    return x < o.x + o.width && o.x < x + width && y < o.y + o.height && o.y < y + height;
+  }
 };
 
 enum class Align { left, centre, right };

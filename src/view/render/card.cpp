@@ -56,7 +56,8 @@ void draw_card(Canvas& canvas, const Rect& cell, double scale, const PictureCard
 
 double colour_bar_height(double scale) { return 78 * scale; }
 
-void draw_colour_bar(Canvas& canvas, const Rect& place, double scale, const ColourScale& wanted, const ColourRange& range) {
+void draw_colour_bar(Canvas& canvas, const Rect& place, double scale, const ColourScale& wanted,
+                     const ColourRange& range) {
   const double size = 14 * scale, small = 13 * scale;
   double y = place.y + canvas.capital_height(size);
   const std::string name = wanted.name + (wanted.unit.empty() ? "" : " [" + wanted.unit + "]");
@@ -72,7 +73,8 @@ void draw_colour_bar(Canvas& canvas, const Rect& place, double scale, const Colo
   }
   if (range.limit && range.broken != LimitSide::none) {  // stripes where the limit is broken, slanted as on the tubes
     const double cut = std::clamp(at(*range.limit), bar.x, bar.x + bar.width);
-    const double from = range.broken == LimitSide::below ? bar.x : cut, to = range.broken == LimitSide::below ? cut : bar.x + bar.width;
+    const double from = range.broken == LimitSide::below ? bar.x : cut,
+                 to = range.broken == LimitSide::below ? cut : bar.x + bar.width;
     canvas.clip({from, bar.y, to - from, bar.height});
     for (double x = from - bar.height; x < to; x += 9 * scale)
       canvas.line({x, bar.y + bar.height}, {x + bar.height, bar.y}, 3 * scale, broken_stripe);
@@ -84,14 +86,17 @@ void draw_colour_bar(Canvas& canvas, const Rect& place, double scale, const Colo
   for (std::size_t i = 0; i < ticks.values.size(); ++i) {
     const double x = at(ticks.values[i]);
     canvas.line({x, bar.y + bar.height}, {x, bar.y + bar.height + 5 * scale}, 1, ink);
-    canvas.text(ticks.labels[i], {x, bar.y + bar.height + 8 * scale + canvas.capital_height(small)}, {small, ink, false, Align::centre, 2 * scale});
+    canvas.text(ticks.labels[i], {x, bar.y + bar.height + 8 * scale + canvas.capital_height(small)},
+                {small, ink, false, Align::centre, 2 * scale});
   }
   if (range.limit && *range.limit >= range.low && *range.limit <= range.high) {
     const double x = at(*range.limit), t = 5 * scale;
     canvas.line({x, bar.y - 2}, {x, bar.y + bar.height + 2}, std::max(2 * scale, 1.5), ink);
     canvas.triangle({Point{x - t, bar.y - 2 - 1.4 * t}, Point{x + t, bar.y - 2 - 1.4 * t}, Point{x, bar.y - 1}}, ink);
-    const std::string text = (range.meaning == ColourMeaning::clearance ? "required " : "limit ") + number_text(*range.limit);
-    const double width = canvas.text_width(text, small), name_end = place.x + canvas.text_width(name, size, true) + 10 * scale;
+    const std::string text =
+        (range.meaning == ColourMeaning::clearance ? "required " : "limit ") + number_text(*range.limit);
+    const double width = canvas.text_width(text, small),
+                 name_end = place.x + canvas.text_width(name, size, true) + 10 * scale;
     double middle = std::clamp(x, place.x + 0.5 * width, place.x + place.width - 0.5 * width);
     double baseline = bar.y - 4 - 1.4 * t;
     if (middle - 0.5 * width < name_end) {  // beside the mark, so that it does not run into the name

@@ -38,7 +38,9 @@ std::vector<Probe> probes_of(const std::vector<PictureTube>& tubes, const ViewCa
 }  // namespace
 
 Cutaway::Range Cutaway::over(double left, double right, double bottom, double top) const {
-  const auto cell = [](double share, int count) { return std::clamp(static_cast<int>(std::floor(share * count)), 0, count - 1); };
+  const auto cell = [](double share, int count) {
+    return std::clamp(static_cast<int>(std::floor(share * count)), 0, count - 1);
+  };
   // One cell more on each side: the texture is read with linear interpolation.
   const int x0 = std::max(cell(left, columns) - 1, 0), x1 = std::min(cell(right, columns) + 1, columns - 1);
   const int y0 = std::max(cell(bottom, rows) - 1, 0), y1 = std::min(cell(top, rows) + 1, rows - 1);

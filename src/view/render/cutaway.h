@@ -1,8 +1,9 @@
 // Which parts of the surroundings lie between the eye and the tubes.
 //
-// Over every point of the page stands a depth: what lies nearer to the eye is cut away. Around each point of a tube the cut
-// is a cone that opens towards the eye, so that the tube and what it rests on stay in view while the surroundings away from it
-// are whole (after Burns and Finkelstein, "Adaptive cutaways for comprehensible rendering of polygonal scenes", 2008).
+// Over every point of the page stands a depth: what lies nearer to the eye is cut away. Around each point of a tube the
+// cut is a cone that opens towards the eye, so that the tube and what it rests on stay in view while the surroundings
+// away from it are whole (after Burns and Finkelstein, "Adaptive cutaways for comprehensible rendering of polygonal
+// scenes", 2008).
 #pragma once
 
 #include <vector>
@@ -17,7 +18,8 @@ inline constexpr double cut_slope = 1.7;
 
 struct Cutaway {
   int columns = 1, rows = 1;
-  std::vector<float> depth{0};  ///< row by row from the bottom; as on the depth buffer: 0 nearest, 1 farthest. 0: nothing is cut
+  std::vector<float> depth{
+      0};  ///< row by row from the bottom; as on the depth buffer: 0 nearest, 1 farthest. 0: nothing is cut
 
   struct Range {
     float least, most;

@@ -32,7 +32,8 @@ Font::Font(const std::string& file) : face_(std::make_unique<Face>()) {
   const auto* data = reinterpret_cast<const unsigned char*>(face_->bytes.data());
   // stb_truetype trusts its input: only what looks like a whole TrueType file reaches it.
   const bool looks_right = face_->bytes.size() > 1000 && face_->bytes.compare(0, 4, std::string("\0\1\0\0", 4)) == 0;
-  if (!looks_right || !stbtt_InitFont(&face_->info, data, 0)) throw UsageError("'" + path + "' is not a TrueType font (package fonts-dejavu-core)");
+  if (!looks_right || !stbtt_InitFont(&face_->info, data, 0))
+    throw UsageError("'" + path + "' is not a TrueType font (package fonts-dejavu-core)");
 }
 
 Font::~Font() = default;
@@ -66,7 +67,7 @@ double Font::width(std::string_view utf8, double size) const {
 }
 
 double Font::ascent(double size) const {
-  int x0, y0, x1, y1;
+  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
   stbtt_GetCodepointBox(&face_->info, 'H', &x0, &y0, &x1, &y1);
   return y1 * face_->scale(size);
 }
@@ -74,7 +75,8 @@ double Font::ascent(double size) const {
 void Font::draw(std::string_view utf8, double size, double x, double baseline,
                 const std::function<void(int, int, std::uint8_t)>& pixel) const {
   const float scale = static_cast<float>(face_->scale(size));
-  const int row = static_cast<int>(std::lround(baseline));  // rows sit on whole pixels: crisp; columns keep their thirds
+  const int row =
+      static_cast<int>(std::lround(baseline));  // rows sit on whole pixels: crisp; columns keep their thirds
   int before = 0;
   std::vector<std::uint8_t> bitmap;
   for (int point : code_points(utf8)) {
@@ -89,7 +91,8 @@ void Font::draw(std::string_view utf8, double size, double x, double baseline,
       stbtt_MakeCodepointBitmapSubpixel(&face_->info, bitmap.data(), w, h, w, scale, scale, shift, 0, point);
       for (int v = 0; v < h; ++v)
         for (int u = 0; u < w; ++u)
-          if (const std::uint8_t coverage = bitmap[static_cast<std::size_t>(v) * w + u]) pixel(column + x0 + u, row + y0 + v, coverage);
+          if (const std::uint8_t coverage = bitmap[static_cast<std::size_t>(v) * w + u])
+            pixel(column + x0 + u, row + y0 + v, coverage);
     }
     int advance = 0, bearing = 0;
     stbtt_GetCodepointHMetrics(&face_->info, point, &advance, &bearing);

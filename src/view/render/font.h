@@ -20,8 +20,8 @@ class Font {
   Font(const Font&) = delete;
   Font& operator=(const Font&) = delete;
 
-  double width(std::string_view utf8, double size) const;   ///< pixels
-  double ascent(double size) const;                         ///< pixels from the baseline to the top of capitals
+  double width(std::string_view utf8, double size) const;  ///< pixels
+  double ascent(double size) const;                        ///< pixels from the baseline to the top of capitals
 
   /// Calls `pixel(x, y, coverage 0 ... 255)` for every touched pixel of the text that starts at (x, baseline).
   void draw(std::string_view utf8, double size, double x, double baseline,

@@ -24,8 +24,15 @@ GLuint compiled(GLenum kind, std::string_view defines, std::string_view source) 
 }  // namespace
 
 Context::Context() : page_(16 * 16 * 4) {
-  const int attributes[] = {OSMESA_FORMAT, OSMESA_RGBA, OSMESA_PROFILE, OSMESA_CORE_PROFILE, OSMESA_CONTEXT_MAJOR_VERSION, 3,
-                            OSMESA_CONTEXT_MINOR_VERSION, 3, 0};
+  const int attributes[] = {OSMESA_FORMAT,
+                            OSMESA_RGBA,
+                            OSMESA_PROFILE,
+                            OSMESA_CORE_PROFILE,
+                            OSMESA_CONTEXT_MAJOR_VERSION,
+                            3,
+                            OSMESA_CONTEXT_MINOR_VERSION,
+                            3,
+                            0};
   context_ = OSMesaCreateContextAttribs(attributes, nullptr);
   if (!context_) throw UsageError("OSMesa gives no OpenGL 3.3 context (package libosmesa6)");
   if (!OSMesaMakeCurrent(context_, page_.data(), GL_UNSIGNED_BYTE, 16, 16)) {
@@ -39,7 +46,8 @@ Context::~Context() {
   OSMesaDestroyContext(context_);
 }
 
-Program::Program(std::string_view vertex, std::string_view fragment, std::string_view defines) : program_(glCreateProgram()) {
+Program::Program(std::string_view vertex, std::string_view fragment, std::string_view defines)
+    : program_(glCreateProgram()) {
   for (const auto& [kind, source] : {std::pair{GL_VERTEX_SHADER, vertex}, std::pair{GL_FRAGMENT_SHADER, fragment}}) {
     const GLuint shader = compiled(kind, defines, source);
     glAttachShader(program_, shader);
@@ -67,7 +75,7 @@ Texture::Texture(GLenum internal, int width, int height, GLenum format, GLenum t
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
   glTexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(internal), width, height, 0, format, type, data);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, static_cast<GLint>(filter));
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, static_cast<GLint>(filter));
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter == GL_NEAREST ? GL_NEAREST : GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
 }
@@ -81,7 +89,8 @@ Target::Target(std::vector<GLuint> colours, GLuint depth, int width, int height)
   }
   if (depth) glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth, 0);
   if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
-    throw UsageError("OSMesa refuses a drawing target of " + std::to_string(width) + " x " + std::to_string(height) + " pixels");
+    throw UsageError("OSMesa refuses a drawing target of " + std::to_string(width) + " x " + std::to_string(height) +
+                     " pixels");
 }
 
 void Target::bind() const {

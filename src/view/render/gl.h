@@ -47,8 +47,9 @@ class Program {
 
 class Texture {
  public:
-  /// No mipmaps, clamped; nearest or linear.
-  Texture(GLenum internal, int width, int height, GLenum format, GLenum type, const void* data = nullptr, GLenum filter = GL_NEAREST);
+  /// Clamped; nearest, linear, or linear with mipmaps that the caller generates.
+  Texture(GLenum internal, int width, int height, GLenum format, GLenum type, const void* data = nullptr,
+          GLenum filter = GL_NEAREST);
   ~Texture() { glDeleteTextures(1, &name); }
   Texture(const Texture&) = delete;
   Texture& operator=(const Texture&) = delete;

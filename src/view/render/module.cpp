@@ -5,9 +5,9 @@
 #include "view/render_module.h"
 
 extern "C" __attribute__((visibility("default"))) bool tendril_render_picture(const tendril::Picture& picture,
-                                                                               const tendril::RunContext& context,
-                                                                               tendril::PictureReport& report, std::string& png,
-                                                                               std::string& error) {
+                                                                              const tendril::RunContext& context,
+                                                                              tendril::PictureReport& report,
+                                                                              std::string& png, std::string& error) {
   try {
     const tendril::render::Image page = tendril::render::draw_sheet(picture, context, report);
     png.clear();

@@ -14,7 +14,9 @@ float paint_of(const PictureSurface& surface, std::vector<Paint>& palette) {
   const float strength = surface.style == SurfaceStyle::solid ? 1.0f : 0.66f;
   const Paint wanted{surface.colour, static_cast<float>(surface.share), strength};
   std::size_t i = 0;
-  while (i < palette.size() && !(palette[i].colour == wanted.colour && palette[i].share == wanted.share && palette[i].strength == strength)) ++i;
+  while (i < palette.size() &&
+         !(palette[i].colour == wanted.colour && palette[i].share == wanted.share && palette[i].strength == strength))
+    ++i;
   if (i == palette.size() && i < most_paints) palette.push_back(wanted);
   return static_cast<float>(std::min(i, most_paints - 1)) / 65535.0f;
 }
@@ -33,8 +35,12 @@ Shadow shadow_of(const MeshPiece& run, const SceneGeometry::Page& page) {
   const double dx = half.dot(c.right.cwiseAbs()) / c.metres_per_pixel + 2;
   const double dy = half.dot(c.up.cwiseAbs()) / c.metres_per_pixel + 2;
   const double dz = half.dot(c.back.cwiseAbs()) + 4 * c.metres_per_pixel;
-  return {(p.x() - dx) / c.width, (p.x() + dx) / c.width, 1 - (p.y() + dy) / c.height, 1 - (p.y() - dy) / c.height,
-          (page.nearest - p.z() - dz) / page.range, (page.nearest - p.z() + dz) / page.range};
+  return {(p.x() - dx) / c.width,
+          (p.x() + dx) / c.width,
+          1 - (p.y() + dy) / c.height,
+          1 - (p.y() - dy) / c.height,
+          (page.nearest - p.z() - dz) / page.range,
+          (page.nearest - p.z() + dz) / page.range};
 }
 
 /// What a piece needs for a layer: nothing, to be drawn whole, or to be tested against the cut.
@@ -66,7 +72,9 @@ GLuint new_buffer(GLenum target, std::size_t bytes) {
 
 template <class T>
 std::size_t fill(GLenum target, std::size_t offset, const std::vector<T>& data) {
-  if (!data.empty()) glBufferSubData(target, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(data.size() * sizeof(T)), data.data());
+  if (!data.empty())
+    glBufferSubData(target, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(data.size() * sizeof(T)),
+                    data.data());
   return offset + data.size() * sizeof(T);
 }
 
@@ -78,9 +86,11 @@ PreparedScene prepare_scene(const Picture& picture, const Vec3& origin, const Ru
   scene.meshes.resize(count);
   std::atomic<std::size_t> next{0};
   const auto work = [&] {
-    for (std::size_t i = next++; i < count && !context.stop(); i = next++) scene.meshes[i] = prepare_mesh(picture.surfaces[i], origin);
+    for (std::size_t i = next++; i < count && !context.stop(); i = next++)
+      scene.meshes[i] = prepare_mesh(picture.surfaces[i], origin);
   };
-  const std::size_t cores = context.threads > 0 ? static_cast<std::size_t>(context.threads) : std::max(1u, std::thread::hardware_concurrency());
+  const std::size_t cores = context.threads > 0 ? static_cast<std::size_t>(context.threads)
+                                                : std::max(1u, std::thread::hardware_concurrency());
   std::vector<std::jthread> helpers;
   for (std::size_t i = 1; i < std::min({cores, count, std::size_t{8}}); ++i) helpers.emplace_back(work);
   work();
@@ -101,7 +111,8 @@ PreparedScene prepare_scene(const Picture& picture, const Vec3& origin, const Ru
   return scene;
 }
 
-SceneGeometry::SceneGeometry(PreparedScene&& scene) : palette_(std::move(scene.palette)), low_(scene.low), high_(scene.high) {
+SceneGeometry::SceneGeometry(PreparedScene&& scene)
+    : palette_(std::move(scene.palette)), low_(scene.low), high_(scene.high) {
   const std::vector<PreparedMesh>& meshes = scene.meshes;
   glGenVertexArrays(1, &array_);
   glBindVertexArray(array_);
@@ -115,8 +126,9 @@ SceneGeometry::SceneGeometry(PreparedScene&& scene) : palette_(std::move(scene.p
   glVertexAttribPointer(1, 2, GL_SHORT, GL_TRUE, 0, nullptr);
   offset = 0;
   for (const PreparedMesh& mesh : meshes) offset = fill(GL_ARRAY_BUFFER, offset, mesh.normals);
-  indices_ = new_buffer(GL_ELEMENT_ARRAY_BUFFER,
-                        (total(meshes, &PreparedMesh::triangles) + total(meshes, &PreparedMesh::edges)) * sizeof(std::uint32_t));
+  indices_ = new_buffer(
+      GL_ELEMENT_ARRAY_BUFFER,
+      (total(meshes, &PreparedMesh::triangles) + total(meshes, &PreparedMesh::edges)) * sizeof(std::uint32_t));
   offset = 0;
   std::uint32_t first_vertex = 0;
   for (std::size_t i = 0; i < meshes.size(); ++i) {
@@ -137,7 +149,8 @@ SceneGeometry::~SceneGeometry() {
   glDeleteVertexArrays(1, &array_);
 }
 
-void SceneGeometry::draw(const std::vector<Piece>& pieces, const Page& page, Layer layer, bool tested, GLenum mode) const {
+void SceneGeometry::draw(const std::vector<Piece>& pieces, const Page& page, Layer layer, bool tested,
+                         GLenum mode) const {
   std::vector<std::pair<double, const Piece*>> shown;
   for (const Piece& piece : pieces) {
     const Shadow shadow = shadow_of(piece.run, page);
@@ -150,12 +163,17 @@ void SceneGeometry::draw(const std::vector<Piece>& pieces, const Page& page, Lay
   for (const auto& [depth, piece] : shown) {
     glVertexAttrib1f(2, piece->paint);
     glDrawElementsBaseVertex(mode, static_cast<GLsizei>(piece->run.count), GL_UNSIGNED_INT,
-                             reinterpret_cast<const void*>(piece->run.first * sizeof(std::uint32_t)), static_cast<GLint>(piece->first_vertex));
+                             reinterpret_cast<const void*>(piece->run.first * sizeof(std::uint32_t)),
+                             static_cast<GLint>(piece->first_vertex));
   }
 }
 
-void SceneGeometry::draw_triangles(const Page& page, Layer layer, bool tested) const { draw(pieces_, page, layer, tested, GL_TRIANGLES); }
+void SceneGeometry::draw_triangles(const Page& page, Layer layer, bool tested) const {
+  draw(pieces_, page, layer, tested, GL_TRIANGLES);
+}
 
-void SceneGeometry::draw_edges(const Page& page, Layer layer, bool tested) const { draw(edge_pieces_, page, layer, tested, GL_LINES); }
+void SceneGeometry::draw_edges(const Page& page, Layer layer, bool tested) const {
+  draw(edge_pieces_, page, layer, tested, GL_LINES);
+}
 
 }  // namespace tendril::render

@@ -17,12 +17,12 @@ struct Paint {
 
 /// Surfaces before they are uploaded: made without a context, so that both can go on at once.
 struct PreparedScene {
-  std::vector<PreparedMesh> meshes;    ///< in the order of the picture's surfaces
+  std::vector<PreparedMesh> meshes;  ///< in the order of the picture's surfaces
   std::vector<SurfaceStyle> styles;
-  std::vector<float> paints;           ///< per surface: its index in the palette over 65535
-  std::vector<Paint> palette;          ///< at most 4096; further colours share the last
+  std::vector<float> paints;   ///< per surface: its index in the palette over 65535
+  std::vector<Paint> palette;  ///< at most 4096; further colours share the last
   std::size_t triangles = 0, edges = 0, left_out = 0;
-  Eigen::Vector3f low, high;           ///< of all drawn vertices, m, relative to the origin
+  Eigen::Vector3f low, high;  ///< of all drawn vertices, m, relative to the origin
 };
 
 PreparedScene prepare_scene(const Picture& picture, const Vec3& origin, const RunContext& context);

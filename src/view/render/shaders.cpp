@@ -218,6 +218,12 @@ float jump(sampler2D depth, ivec2 at, float here) {
   return smoothstep(7.0, 14.0, bend);
 }
 
+// Edges at a place, paler where they crowd (fins, threads, bolts far away): detail must not outweigh form.
+float edges_at(sampler2D edges, ivec2 at, vec2 uv) {
+  float here = texelFetch(edges, at, 0).r;
+  return here * clamp(1.25 - 2.6 * textureLod(edges, uv, 5.0).r, 0.22, 1.0);
+}
+
 // What a surface of the surroundings looks like; `open`: the share of the sky it sees.
 vec3 surroundings(vec4 kept, float open, float edge, out float share) {
   int paint = int(kept.b * 65535.0 + 0.5);
@@ -242,7 +248,7 @@ void main() {
   vec3 colour = paper;
   float edge = 0.0;
   if (base_at < 1.0) {
-    edge = texelFetch(base_edges, at, 0).r;
+    edge = edges_at(base_edges, at, uv);
     colour = surroundings(texelFetch(base, at, 0), open, edge, share);
   }
   // The cut's own border is no edge of the part.
@@ -275,7 +281,7 @@ void main() {
     share = clamp(share * over_tube * (0.65 + 0.9 * pow(1.0 - n.z, 2.0)), 0.0, 0.85);
     share = mix(share, over_tube, whole);
     colour = mix(colour, own, share);
-    float line = max(texelFetch(veil_edges, at, 0).r, jump(veil_depth, at, veil_at) * smoothstep(4.0, 16.0, before_cut));
+    float line = max(edges_at(veil_edges, at, uv), jump(veil_depth, at, veil_at) * smoothstep(4.0, 16.0, before_cut));
     colour = mix(colour, ink, line * mix(0.28, 0.55, whole) * over_tube);
   }
   result = vec4(colour, mask);

@@ -25,7 +25,8 @@ class Stopwatch {
   RunContext::Clock::time_point since_ = RunContext::Clock::now();
 };
 
-/// Whole-pixel cells in reading order: one fills the page, two share its longer side, more stand in two columns (or three).
+/// Whole-pixel cells in reading order: one fills the page, two share its longer side, more stand in two columns (or
+/// three).
 std::vector<Rect> cells_of(int count, int width, int height) {
   int columns = count == 1 ? 1 : count == 2 ? (width >= height ? 2 : 1) : count <= 4 ? 2 : (width >= height ? 3 : 2);
   const int rows = (count + columns - 1) / columns;
@@ -40,7 +41,8 @@ std::vector<Rect> cells_of(int count, int width, int height) {
 }
 
 bool has_values(const Picture& picture) {
-  return std::any_of(picture.tubes.begin(), picture.tubes.end(), [](const PictureTube& tube) { return !tube.values.empty(); });
+  return std::any_of(picture.tubes.begin(), picture.tubes.end(),
+                     [](const PictureTube& tube) { return !tube.values.empty(); });
 }
 
 Vec3 middle_of(const std::vector<FitBall>& balls) {
@@ -53,7 +55,8 @@ double scale_of(const Rect& cell) { return std::clamp(std::min(cell.width / 800,
 
 void paste(const Image& from, const Rect& cell, Image& page) {
   for (int y = 0; y < from.height; ++y)
-    std::copy_n(from.at(0, y), static_cast<std::size_t>(from.width) * 4, page.at(static_cast<int>(cell.x), static_cast<int>(cell.y) + y));
+    std::copy_n(from.at(0, y), static_cast<std::size_t>(from.width) * 4,
+                page.at(static_cast<int>(cell.x), static_cast<int>(cell.y) + y));
 }
 
 void draw_card_cell(Canvas& canvas, const Rect& cell, const Picture& picture) {
@@ -63,7 +66,8 @@ void draw_card_cell(Canvas& canvas, const Rect& cell, const Picture& picture) {
   if (has_values(picture)) {
     const double height = colour_bar_height(scale), margin = 34 * scale;
     rest.height -= height + 26 * scale;
-    draw_colour_bar(canvas, {cell.x + margin, cell.y + rest.height + 8 * scale, cell.width - 2 * margin, height}, scale, picture.scale, settled_range(picture));
+    draw_colour_bar(canvas, {cell.x + margin, cell.y + rest.height + 8 * scale, cell.width - 2 * margin, height}, scale,
+                    picture.scale, settled_range(picture));
   }
   draw_card(canvas, rest, scale, picture.card);
 }
@@ -93,7 +97,8 @@ std::vector<Rect> draw_bar_in_view(Canvas& canvas, const Rect& cell, const Pictu
 
 void draw_title_in_view(Canvas& canvas, const Rect& cell, const std::string& title) {
   const double scale = scale_of(cell), size = 15 * scale;
-  canvas.text(canvas.fitted(title, size, 0.5 * cell.width, true), {cell.x + 16 * scale, cell.y + 50 * scale}, {size, ink, true, Align::left, 2.5 * scale});
+  canvas.text(canvas.fitted(title, size, 0.5 * cell.width, true), {cell.x + 16 * scale, cell.y + 50 * scale},
+              {size, ink, true, Align::left, 2.5 * scale});
 }
 
 }  // namespace
@@ -104,7 +109,8 @@ Image draw_sheet(const Picture& picture, const RunContext& context, PictureRepor
   const std::vector<FitBall> balls = fit_balls(picture);
   const Vec3 origin = middle_of(balls);
   // The mesh is made ready while OSMesa starts and compiles.
-  std::future<PreparedScene> scene = std::async(std::launch::async, [&] { return prepare_scene(picture, origin, context); });
+  std::future<PreparedScene> scene =
+      std::async(std::launch::async, [&] { return prepare_scene(picture, origin, context); });
   const Context gl;
   watch.step("context");
   PreparedScene prepared = scene.get();

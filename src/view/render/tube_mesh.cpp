@@ -44,7 +44,8 @@ void add_ring(const Ring& ring, const Vec3& origin, int sides, bool join, TubeMe
   if (!join) return;
   const std::uint32_t stride = static_cast<std::uint32_t>(sides) + 1, before = first - stride;
   for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(sides); ++i)
-    mesh.triangles.insert(mesh.triangles.end(), {before + i, before + i + 1, first + i, before + i + 1, first + i + 1, first + i});
+    mesh.triangles.insert(mesh.triangles.end(),
+                          {before + i, before + i + 1, first + i, before + i + 1, first + i + 1, first + i});
 }
 
 /// The points that make rings: no two equal, no more than wanted.
@@ -64,8 +65,9 @@ std::vector<Frame> ring_frames(const PictureTube& tube, const std::vector<std::s
     const Vec3& before = tube.points[kept[i > 0 ? i - 1 : 0]];
     const Vec3& after = tube.points[kept[std::min(i + 1, kept.size() - 1)]];
     const Vec3& here = tube.points[kept[i]];
-    Vec3 along = (after - here).norm() > 0 && (here - before).norm() > 0 ? Vec3((after - here).normalized() + (here - before).normalized())
-                                                                        : Vec3(after - before);
+    Vec3 along = (after - here).norm() > 0 && (here - before).norm() > 0
+                     ? Vec3((after - here).normalized() + (here - before).normalized())
+                     : Vec3(after - before);
     if (along.norm() < 1e-9) along = kept.size() > 1 && i > 0 ? frames[i - 1].d3() : Vec3::UnitZ();
     if (i == 0) frames[i] = Frame::looking(here, along);
     else frames[i] = {here, shortest_turn(frames[i - 1].d3(), along.normalized()) * frames[i - 1].rotation};
@@ -73,9 +75,10 @@ std::vector<Frame> ring_frames(const PictureTube& tube, const std::vector<std::s
   return frames;
 }
 
-/// A body of revolution about the frame's d3 from a profile of (radius, height) points; every profile side is shaded flat.
-void add_turned(const Frame& frame, const std::vector<std::array<double, 2>>& profile, const Rgb& colour, const Vec3& origin,
-                TubeMesh& mesh, int sides = 28) {
+/// A body of revolution about the frame's d3 from a profile of (radius, height) points; every profile side is shaded
+/// flat.
+void add_turned(const Frame& frame, const std::vector<std::array<double, 2>>& profile, const Rgb& colour,
+                const Vec3& origin, TubeMesh& mesh, int sides = 28) {
   for (std::size_t i = 0; i + 1 < profile.size(); ++i) {
     const auto [r0, z0] = profile[i];
     const auto [r1, z1] = profile[i + 1];
@@ -103,8 +106,9 @@ void add_tube(const PictureTube& tube, const Vec3& origin, TubeMesh& mesh, int s
     const double value = tube.values.empty() ? 0 : tube.values[k];
     const bool unknown = !std::isfinite(value);
     const Rgb colour = unknown ? Rgb{0.62f, 0.62f, 0.62f} : tube.colour;
-    rings.push_back({frames[i].at, frames[i], radius, 0, static_cast<float>(radius), unknown ? 0.0f : static_cast<float>(value),
-                     static_cast<float>(along), packed(colour, unknown || tube.values.empty())});
+    rings.push_back({frames[i].at, frames[i], radius, 0, static_cast<float>(radius),
+                     unknown ? 0.0f : static_cast<float>(value), static_cast<float>(along),
+                     packed(colour, unknown || tube.values.empty())});
   }
   const auto cap = [&](Ring ring, double sign, int k) {
     const double angle = 0.5 * units::pi * k / cap_rings;
@@ -132,7 +136,13 @@ void add_hold(const PictureHold& hold, const ViewCamera& camera, const Vec3& ori
   }
   const double half = hold.kind == PictureHold::Kind::clamp ? 0.9 * r : 0.35 * r;
   const double bevel = 0.15 * r, outer = 1.5 * r, inner = 0.98 * r;
-  add_turned(hold.frame, {{inner, -half}, {outer - bevel, -half}, {outer, bevel - half}, {outer, half - bevel}, {outer - bevel, half}, {inner, half}},
+  add_turned(hold.frame,
+             {{inner, -half},
+              {outer - bevel, -half},
+              {outer, bevel - half},
+              {outer, half - bevel},
+              {outer - bevel, half},
+              {inner, half}},
              steel, origin, mesh);
 }
 
@@ -145,7 +155,8 @@ std::array<Vec3, 2> arrow_ends(const PictureArrow& arrow, const ViewCamera& came
 void add_arrow(const PictureArrow& arrow, const ViewCamera& camera, const Vec3& origin, TubeMesh& mesh) {
   const auto [tail, tip] = arrow_ends(arrow, camera);
   const double length = (tip - tail).norm(), shaft = 0.035 * length, head = 0.11 * length, neck = 0.66 * length;
-  add_turned(Frame::looking(tail, arrow.direction.normalized()), {{0, 0}, {shaft, 0}, {shaft, neck}, {head, neck}, {0, length}}, arrow.colour, origin, mesh);
+  add_turned(Frame::looking(tail, arrow.direction.normalized()),
+             {{0, 0}, {shaft, 0}, {shaft, neck}, {head, neck}, {0, length}}, arrow.colour, origin, mesh);
 }
 
 void add_path(const PicturePath& path, const ViewCamera& camera, const Vec3& origin, TubeMesh& mesh) {

@@ -13,11 +13,11 @@
 namespace tendril::render {
 
 struct TubeVertex {
-  Eigen::Vector3f position;      ///< m, relative to the origin
-  Eigen::Vector3f outward;       ///< unit
-  float radius = 0;              ///< m; 0: never blown up to a least radius
+  Eigen::Vector3f position;  ///< m, relative to the origin
+  Eigen::Vector3f outward;   ///< unit
+  float radius = 0;          ///< m; 0: never blown up to a least radius
   float value = 0;
-  float along = 0, around = 0;   ///< arc length (m) and turns, for stripes and dashes
+  float along = 0, around = 0;           ///< arc length (m) and turns, for stripes and dashes
   std::array<std::uint8_t, 4> colour{};  ///< alpha 0: by value
 };
 

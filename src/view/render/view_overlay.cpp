@@ -18,7 +18,8 @@ void draw_name(Canvas& canvas, const Rect& cell, double scale, const std::string
   canvas.text(view, {x, y}, {size, ink, true, Align::left, 2.5 * scale});
   const std::string seen = view == "front" ? "along +y" : view == "top" ? "along −z" : view == "side" ? "along −x" : "";
   if (!seen.empty())
-    canvas.text(seen, {x + canvas.text_width(view, size, true) + 9 * scale, y}, {13 * scale, quiet, false, Align::left, 2.5 * scale});
+    canvas.text(seen, {x + canvas.text_width(view, size, true) + 9 * scale, y},
+                {13 * scale, quiet, false, Align::left, 2.5 * scale});
 }
 
 Rect draw_triad(Canvas& canvas, const Rect& cell, double scale, const ViewCamera& camera) {
@@ -39,7 +40,9 @@ Rect draw_triad(Canvas& canvas, const Rect& cell, double scale, const ViewCamera
       canvas.frame({o.x - 6 * scale, o.y - 6 * scale, 12 * scale, 12 * scale}, colour, 1.6 * scale, 6 * scale);
       if (towards) canvas.disc(o, 2.3 * scale, colour);
       else
-        for (double side : {-1.0, 1.0}) canvas.line({o.x - 3.4 * scale, o.y - side * 3.4 * scale}, {o.x + 3.4 * scale, o.y + side * 3.4 * scale}, 1.4 * scale, colour);
+        for (double side : {-1.0, 1.0})
+          canvas.line({o.x - 3.4 * scale, o.y - side * 3.4 * scale}, {o.x + 3.4 * scale, o.y + side * 3.4 * scale},
+                      1.4 * scale, colour);
       canvas.text(name, {o.x - 15 * scale, o.y + 15 * scale}, {14 * scale, colour, true, Align::centre, 2 * scale});
       continue;
     }
@@ -47,9 +50,12 @@ Rect draw_triad(Canvas& canvas, const Rect& cell, double scale, const ViewCamera
     const Point tip{o.x + dx, o.y + dy}, neck{tip.x - head * ux, tip.y - head * uy};
     canvas.line(o, tip, thick + 3 * scale, paper, 0.8);
     canvas.line(o, neck, thick, colour);
-    canvas.triangle({tip, Point{neck.x - 0.42 * head * uy, neck.y + 0.42 * head * ux}, Point{neck.x + 0.42 * head * uy, neck.y - 0.42 * head * ux}}, colour);
+    canvas.triangle({tip, Point{neck.x - 0.42 * head * uy, neck.y + 0.42 * head * ux},
+                     Point{neck.x + 0.42 * head * uy, neck.y - 0.42 * head * ux}},
+                    colour);
     const double beyond = 9 * scale;
-    canvas.text(name, {tip.x + beyond * ux, tip.y + beyond * uy + 0.5 * canvas.capital_height(14 * scale)}, {14 * scale, colour, true, Align::centre, 2 * scale});
+    canvas.text(name, {tip.x + beyond * ux, tip.y + beyond * uy + 0.5 * canvas.capital_height(14 * scale)},
+                {14 * scale, colour, true, Align::centre, 2 * scale});
   }
   return {cell.x, cell.y + cell.height - 100 * scale, 104 * scale, 100 * scale};
 }
@@ -59,7 +65,8 @@ double tube_share(const Image& drawn, const Rect& cell, const Rect& box) {
   double sum = 0;
   for (int i = 0; i <= 12; ++i)
     for (int k = 0; k <= 4; ++k) {
-      const int x = static_cast<int>(box.x + box.width * i / 12 - cell.x), y = static_cast<int>(box.y + box.height * k / 4 - cell.y);
+      const int x = static_cast<int>(box.x + box.width * i / 12 - cell.x),
+                y = static_cast<int>(box.y + box.height * k / 4 - cell.y);
       if (x >= 0 && y >= 0 && x < drawn.width && y < drawn.height) sum += drawn.at(x, y)[3] / 255.0;
     }
   return sum / 65;
@@ -79,9 +86,11 @@ Rect draw_scale_bar(Canvas& canvas, const Rect& cell, double scale, double metre
   const double thick = std::max(3 * scale, 1.5), tick = 5 * scale;
   canvas.box({left - 2, y - tick - 2, pixels + 4, thick + 2 * tick + 4}, paper, 0.6, 3);
   canvas.box({left, y, pixels, thick}, ink);
-  for (double x : {left, right - std::max(1.5 * scale, 1.0)}) canvas.box({x, y - tick, std::max(1.5 * scale, 1.0), thick + 2 * tick}, ink);
+  for (double x : {left, right - std::max(1.5 * scale, 1.0)})
+    canvas.box({x, y - tick, std::max(1.5 * scale, 1.0), thick + 2 * tick}, ink);
   const double size = 14 * scale;
-  canvas.text(length_text(metres), {0.5 * (left + right), y - 8 * scale}, {size, ink, false, Align::centre, 2.5 * scale});
+  canvas.text(length_text(metres), {0.5 * (left + right), y - 8 * scale},
+              {size, ink, false, Align::centre, 2.5 * scale});
   return {left - 8 * scale, y - 30 * scale, pixels + 30 * scale, 60 * scale};
 }
 
@@ -106,16 +115,19 @@ class Placer {
     for (double reach : {34.0, 54.0, 80.0, 115.0, 160.0, 220.0})
       for (int turn = 0; turn < 16; ++turn) {
         const double angle = (turn + 0.5) * units::pi / 8, dx = std::cos(angle), dy = std::sin(angle);
-        const Rect box{note.at.x + dx * (reach * scale_ + 0.5 * width) - 0.5 * width, note.at.y + dy * (reach * scale_ + 0.5 * height) - 0.5 * height, width, height};
+        const Rect box{note.at.x + dx * (reach * scale_ + 0.5 * width) - 0.5 * width,
+                       note.at.y + dy * (reach * scale_ + 0.5 * height) - 0.5 * height, width, height};
         if (const double cost = cost_of(box, note.at) + reach * 0.5; cost < least) least = cost, best = box;
       }
     const Rgb colour = note.alarm ? alarm : ink;
-    const Point end{std::clamp(note.at.x, best.x + 4 * scale_, best.x + width - 4 * scale_), std::clamp(note.at.y, best.y, best.y + height)};
+    const Point end{std::clamp(note.at.x, best.x + 4 * scale_, best.x + width - 4 * scale_),
+                    std::clamp(note.at.y, best.y, best.y + height)};
     canvas_.line(note.at, end, 3.4 * scale_, paper, 0.8);
     canvas_.line(note.at, end, std::max(1.3 * scale_, 1.0), colour);
     canvas_.box(best, {1, 1, 1}, 0.93, 3 * scale_);
     canvas_.frame(best, colour, std::max(1.2 * scale_, 1.0), 3 * scale_);
-    canvas_.text(text, {best.x + 7 * scale_, best.y + 0.5 * (height + canvas_.capital_height(size))}, {size, colour, false});
+    canvas_.text(text, {best.x + 7 * scale_, best.y + 0.5 * (height + canvas_.capital_height(size))},
+                 {size, colour, false});
     taken_.push_back({best.x - 3 * scale_, best.y - 3 * scale_, width + 6 * scale_, height + 6 * scale_});
     leaders_.push_back({note.at, end});
   }
@@ -137,13 +149,17 @@ class Placer {
   double cost_of(const Rect& box, Point from) const {
     double cost = 0;
     const double pad = 8 * scale_;
-    if (box.x < cell_.x + pad || box.y < cell_.y + pad || box.x + box.width > cell_.x + cell_.width - pad || box.y + box.height > cell_.y + cell_.height - pad) cost += 1e6;
+    if (box.x < cell_.x + pad || box.y < cell_.y + pad || box.x + box.width > cell_.x + cell_.width - pad ||
+        box.y + box.height > cell_.y + cell_.height - pad)
+      cost += 1e6;
     for (const Rect& other : taken_) cost += box.meets(other) ? 1e4 : 0;
     for (const std::array<Point, 2>& leader : leaders_) cost += touches(leader[0], leader[1], box) ? 3e3 : 0;
     cost += 1300 * tube_share(drawn_, cell_, box);
     const Point end{box.x + 0.5 * box.width, box.y + 0.5 * box.height};
-    for (const Rect& other : taken_) cost += touches({from.x + 0.3 * (end.x - from.x), from.y + 0.3 * (end.y - from.y)}, end, other) ? 1e3 : 0;
-    for (int i = 4; i <= 20; ++i) cost += 3 * tube_at(from.x + (end.x - from.x) * i / 20, from.y + (end.y - from.y) * i / 20);
+    for (const Rect& other : taken_)
+      cost += touches({from.x + 0.3 * (end.x - from.x), from.y + 0.3 * (end.y - from.y)}, end, other) ? 1e3 : 0;
+    for (int i = 4; i <= 20; ++i)
+      cost += 3 * tube_at(from.x + (end.x - from.x) * i / 20, from.y + (end.y - from.y) * i / 20);
     return cost;
   }
 
@@ -157,8 +173,8 @@ class Placer {
 
 }  // namespace
 
-void draw_overlay(Canvas& canvas, const Rect& cell, double scale, const std::string& view, const ViewCamera& camera, const Image& drawn,
-                  const Picture& picture, std::vector<Rect> taken) {
+void draw_overlay(Canvas& canvas, const Rect& cell, double scale, const std::string& view, const ViewCamera& camera,
+                  const Image& drawn, const Picture& picture, std::vector<Rect> taken) {
   canvas.clip(cell);
   draw_name(canvas, cell, scale, view);
   taken.push_back({cell.x, cell.y, 200 * scale, 44 * scale});
@@ -169,7 +185,9 @@ void draw_overlay(Canvas& canvas, const Rect& cell, double scale, const std::str
     const Vec3 p = camera.project(world);
     return Point{cell.x + p.x(), cell.y + p.y()};
   };
-  const auto inside = [&](Point p) { return p.x > cell.x && p.y > cell.y && p.x < cell.x + cell.width && p.y < cell.y + cell.height; };
+  const auto inside = [&](Point p) {
+    return p.x > cell.x && p.y > cell.y && p.x < cell.x + cell.width && p.y < cell.y + cell.height;
+  };
   std::vector<Note> notes;
   for (const PictureLabel& label : picture.labels) {
     Point at = on_page(label.at);
@@ -187,12 +205,15 @@ void draw_overlay(Canvas& canvas, const Rect& cell, double scale, const std::str
     if (inside(at)) notes.push_back({at, label.text, label.alarm});
   }
   for (const PictureHold& hold : picture.holds)
-    if (const Point at = on_page(hold.frame.at); !hold.label.empty() && inside(at)) notes.push_back({at, hold.label, false});
+    if (const Point at = on_page(hold.frame.at); !hold.label.empty() && inside(at))
+      notes.push_back({at, hold.label, false});
   for (const PictureArrow& arrow : picture.arrows) {
     const auto [tail, tip] = arrow_ends(arrow, camera);
-    if (const Point at = on_page(arrow.pushes ? tail : tip); !arrow.label.empty() && inside(at)) notes.push_back({at, arrow.label, false});
+    if (const Point at = on_page(arrow.pushes ? tail : tip); !arrow.label.empty() && inside(at))
+      notes.push_back({at, arrow.label, false});
   }
-  for (const Note& note : notes) taken.push_back({note.at.x - 8 * scale, note.at.y - 8 * scale, 16 * scale, 16 * scale});
+  for (const Note& note : notes)
+    taken.push_back({note.at.x - 8 * scale, note.at.y - 8 * scale, 16 * scale, 16 * scale});
   constexpr std::size_t most_notes = 40;  // more would hide the picture
   if (notes.size() > most_notes) notes.resize(most_notes);
   Placer placer(canvas, cell, scale, drawn, std::move(taken));

@@ -9,7 +9,7 @@
 namespace tendril::render {
 namespace {
 
-constexpr int fine = 2;          // samples a pixel in each direction
+constexpr int fine = 2;  // samples a pixel in each direction
 constexpr int tile_pixels = 1600;
 constexpr int tile_margin = 40;  // what ambient occlusion and silhouettes see beyond the tile
 
@@ -30,12 +30,12 @@ PageMatrix page_matrix(const SceneGeometry::Page& page) {
 void set_page(const Program& program, const SceneGeometry::Page& page) {
   const PageMatrix matrix = page_matrix(page);
   Eigen::Matrix3f turn;
-  turn << page.camera.right.transpose().cast<float>(), page.camera.up.transpose().cast<float>(), page.camera.back.transpose().cast<float>();
+  turn << page.camera.right.transpose().cast<float>(), page.camera.up.transpose().cast<float>(),
+      page.camera.back.transpose().cast<float>();
   program.use();
   glUniformMatrix4fv(program.at("page"), 1, GL_FALSE, matrix.data());
   glUniformMatrix3fv(program.at("turn"), 1, GL_FALSE, turn.data());
 }
-
 
 }  // namespace
 
@@ -63,18 +63,25 @@ struct ViewPainter::Buffers {
   Buffers(int w, int h) : width(w), height(h) {}
 
   int width, height, samples_x = fine * width, samples_y = fine * height;
-  Texture base{GL_RGBA16, samples_x, samples_y, GL_RGBA, GL_UNSIGNED_SHORT}, veil{GL_RGBA16, samples_x, samples_y, GL_RGBA, GL_UNSIGNED_SHORT},
-      tube{GL_RGBA16, samples_x, samples_y, GL_RGBA, GL_UNSIGNED_SHORT}, tube_colour{GL_RGBA8, samples_x, samples_y, GL_RGBA, GL_UNSIGNED_BYTE},
+  Texture base{GL_RGBA16, samples_x, samples_y, GL_RGBA, GL_UNSIGNED_SHORT},
+      veil{GL_RGBA16, samples_x, samples_y, GL_RGBA, GL_UNSIGNED_SHORT},
+      tube{GL_RGBA16, samples_x, samples_y, GL_RGBA, GL_UNSIGNED_SHORT},
+      tube_colour{GL_RGBA8, samples_x, samples_y, GL_RGBA, GL_UNSIGNED_BYTE},
       base_depth{GL_DEPTH_COMPONENT32F, samples_x, samples_y, GL_DEPTH_COMPONENT, GL_FLOAT},
       veil_depth{GL_DEPTH_COMPONENT32F, samples_x, samples_y, GL_DEPTH_COMPONENT, GL_FLOAT},
       tube_depth{GL_DEPTH_COMPONENT32F, samples_x, samples_y, GL_DEPTH_COMPONENT, GL_FLOAT},
-      base_edges{GL_R8, samples_x, samples_y, GL_RED, GL_UNSIGNED_BYTE}, veil_edges{GL_R8, samples_x, samples_y, GL_RED, GL_UNSIGNED_BYTE},
-      page{GL_RGBA8, samples_x, samples_y, GL_RGBA, GL_UNSIGNED_BYTE}, nearest{GL_RGBA32F, width, height, GL_RGBA, GL_FLOAT},
-      rough{GL_R8, width, height, GL_RED, GL_UNSIGNED_BYTE}, light{GL_R8, width, height, GL_RED, GL_UNSIGNED_BYTE, nullptr, GL_LINEAR};
-  Target to_base{{base.name}, base_depth.name, samples_x, samples_y}, to_veil{{veil.name}, veil_depth.name, samples_x, samples_y},
-      to_base_edges{{base_edges.name}, base_depth.name, samples_x, samples_y}, to_veil_edges{{veil_edges.name}, veil_depth.name, samples_x, samples_y},
-      to_tube{{tube.name, tube_colour.name}, tube_depth.name, samples_x, samples_y}, to_nearest{{nearest.name}, 0, width, height},
-      to_rough{{rough.name}, 0, width, height}, to_light{{light.name}, 0, width, height}, to_page{{page.name}, 0, samples_x, samples_y};
+      base_edges{GL_R8, samples_x, samples_y, GL_RED, GL_UNSIGNED_BYTE, nullptr, GL_LINEAR_MIPMAP_NEAREST},
+      veil_edges{GL_R8, samples_x, samples_y, GL_RED, GL_UNSIGNED_BYTE, nullptr, GL_LINEAR_MIPMAP_NEAREST},
+      page{GL_RGBA8, samples_x, samples_y, GL_RGBA, GL_UNSIGNED_BYTE},
+      nearest{GL_RGBA32F, width, height, GL_RGBA, GL_FLOAT}, rough{GL_R8, width, height, GL_RED, GL_UNSIGNED_BYTE},
+      light{GL_R8, width, height, GL_RED, GL_UNSIGNED_BYTE, nullptr, GL_LINEAR};
+  Target to_base{{base.name}, base_depth.name, samples_x, samples_y},
+      to_veil{{veil.name}, veil_depth.name, samples_x, samples_y},
+      to_base_edges{{base_edges.name}, base_depth.name, samples_x, samples_y},
+      to_veil_edges{{veil_edges.name}, veil_depth.name, samples_x, samples_y},
+      to_tube{{tube.name, tube_colour.name}, tube_depth.name, samples_x, samples_y},
+      to_nearest{{nearest.name}, 0, width, height}, to_rough{{rough.name}, 0, width, height},
+      to_light{{light.name}, 0, width, height}, to_page{{page.name}, 0, samples_x, samples_y};
 };
 
 /// A tube mesh in buffers of its own.
@@ -85,12 +92,15 @@ class ViewPainter::Tubes {
     glBindVertexArray(array_);
     glGenBuffers(2, buffers_);
     glBindBuffer(GL_ARRAY_BUFFER, buffers_[0]);
-    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(mesh.vertices.size() * sizeof(TubeVertex)), mesh.vertices.data(), GL_STATIC_DRAW);
+    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(mesh.vertices.size() * sizeof(TubeVertex)),
+                 mesh.vertices.data(), GL_STATIC_DRAW);
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffers_[1]);
-    glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(mesh.triangles.size() * sizeof(std::uint32_t)), mesh.triangles.data(), GL_STATIC_DRAW);
+    glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(mesh.triangles.size() * sizeof(std::uint32_t)),
+                 mesh.triangles.data(), GL_STATIC_DRAW);
     const auto attribute = [](GLuint index, GLint size, GLenum type, std::size_t offset) {
       glEnableVertexAttribArray(index);
-      glVertexAttribPointer(index, size, type, type == GL_UNSIGNED_BYTE, sizeof(TubeVertex), reinterpret_cast<const void*>(offset));
+      glVertexAttribPointer(index, size, type, type == GL_UNSIGNED_BYTE, sizeof(TubeVertex),
+                            reinterpret_cast<const void*>(offset));
     };
     attribute(0, 3, GL_FLOAT, offsetof(TubeVertex, position));
     attribute(1, 3, GL_FLOAT, offsetof(TubeVertex, outward));
@@ -123,7 +133,11 @@ struct ViewPainter::Marks {
 };
 
 ViewPainter::ViewPainter(const Picture& picture, const SceneGeometry& surroundings, const Vec3& origin)
-    : picture_(picture), surroundings_(surroundings), origin_(origin), range_(settled_range(picture)), programs_(std::make_unique<Programs>()) {
+    : picture_(picture),
+      surroundings_(surroundings),
+      origin_(origin),
+      range_(settled_range(picture)),
+      programs_(std::make_unique<Programs>()) {
   for (const PictureTube& tube : picture.tubes) {
     add_tube(tube, origin, tube_mesh_);
     const double radius = tube.radii.empty() ? tube.radius : *std::max_element(tube.radii.begin(), tube.radii.end());
@@ -176,7 +190,8 @@ void ViewPainter::draw_surroundings(const SceneGeometry::Page& page, GLuint cut,
   const auto begin = [&](const Program& program, double nearer) {
     set_page(program, page);
     program.texture("cut", 0, cut);
-    program.set("per_pixel", 1.0f / static_cast<float>(buffers.samples_x), 1.0f / static_cast<float>(buffers.samples_y));
+    program.set("per_pixel", 1.0f / static_cast<float>(buffers.samples_x),
+                1.0f / static_cast<float>(buffers.samples_y));
     program.set("nearer", static_cast<float>(nearer));
   };
   glEnable(GL_DEPTH_TEST);
@@ -204,6 +219,8 @@ void ViewPainter::draw_surroundings(const SceneGeometry::Page& page, GLuint cut,
     begin(layer == Layer::base ? programs_->edges_behind : programs_->edges_before, nearer);
     surroundings_.draw_edges(page, layer, true);
     glDepthMask(GL_TRUE);
+    glBindTexture(GL_TEXTURE_2D, (layer == Layer::base ? buffers.base_edges : buffers.veil_edges).name);
+    glGenerateMipmap(GL_TEXTURE_2D);  // coarse levels tell how edges crowd
   }
 }
 
@@ -216,7 +233,9 @@ void ViewPainter::draw_tubes(const SceneGeometry::Page& page, const Marks& marks
   set_page(program, page);
   program.texture("colours", 0, colours_->name);
   program.set("range", static_cast<float>(range_.low), static_cast<float>(range_.high));
-  const float side = !range_.limit || range_.broken == LimitSide::none ? 0.0f : range_.broken == LimitSide::below ? -1.0f : 1.0f;
+  const float side = !range_.limit || range_.broken == LimitSide::none ? 0.0f
+                     : range_.broken == LimitSide::below               ? -1.0f
+                                                                       : 1.0f;
   program.set("limit", static_cast<float>(range_.limit.value_or(0)), side);
   program.set("stripe", static_cast<float>(std::max(stripe_, 12 * pixel)));
   program.set("broken", broken_colour.r, broken_colour.g, broken_colour.b);
@@ -229,7 +248,8 @@ void ViewPainter::draw_tubes(const SceneGeometry::Page& page, const Marks& marks
     float opacity;
   };
   constexpr double halo = 2.4, outline = 1.1;
-  for (const Hull& hull : {Hull{halo, {0.99f, 0.99f, 0.985f}, 1}, Hull{outline, {0.13f, 0.14f, 0.17f}, 1}, Hull{0, {}, 0}}) {
+  for (const Hull& hull :
+       {Hull{halo, {0.99f, 0.99f, 0.985f}, 1}, Hull{outline, {0.13f, 0.14f, 0.17f}, 1}, Hull{0, {}, 0}}) {
     if (hull.pixels > 0) glEnable(GL_CULL_FACE), glCullFace(GL_FRONT);
     else glDisable(GL_CULL_FACE);
     program.set("blow_up", static_cast<float>(hull.pixels * pixel));
@@ -272,9 +292,10 @@ void ViewPainter::compose(const SceneGeometry::Page& page, const Look& look, GLu
   const Program& all = programs_->compose;
   all.use();
   const std::pair<const char*, GLuint> inputs[] = {
-      {"base", b.base.name}, {"base_depth", b.base_depth.name}, {"base_edges", b.base_edges.name}, {"veil", b.veil.name},
-      {"veil_depth", b.veil_depth.name}, {"veil_edges", b.veil_edges.name}, {"tube", b.tube.name}, {"tube_colour", b.tube_colour.name},
-      {"tube_depth", b.tube_depth.name}, {"light", b.light.name}, {"palette", palette_->name}, {"cut", cut}};
+      {"base", b.base.name},   {"base_depth", b.base_depth.name},   {"base_edges", b.base_edges.name},
+      {"veil", b.veil.name},   {"veil_depth", b.veil_depth.name},   {"veil_edges", b.veil_edges.name},
+      {"tube", b.tube.name},   {"tube_colour", b.tube_colour.name}, {"tube_depth", b.tube_depth.name},
+      {"light", b.light.name}, {"palette", palette_->name},         {"cut", cut}};
   int unit = 0;
   for (const auto& [name, texture] : inputs) all.texture(name, unit++, texture);
   all.set("depth_pixels", pixels * fine);
@@ -284,7 +305,8 @@ void ViewPainter::compose(const SceneGeometry::Page& page, const Look& look, GLu
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-void ViewPainter::paint_tile(const ViewCamera& camera, const Span& span, const Look& look, const Marks& marks, const Buffers& buffers) const {
+void ViewPainter::paint_tile(const ViewCamera& camera, const Span& span, const Look& look, const Marks& marks,
+                             const Buffers& buffers) const {
   const Cutaway cut = cutaway_of(picture_.tubes, camera, span.nearest, span.range);
   const SceneGeometry::Page page{camera, origin_, span.nearest, span.range, cut};
   const Texture cut_depth(GL_R32F, cut.columns, cut.rows, GL_RED, GL_FLOAT, cut.depth.data(), GL_LINEAR);
@@ -296,8 +318,8 @@ void ViewPainter::paint_tile(const ViewCamera& camera, const Span& span, const L
 namespace {
 
 /// Averages fine x fine samples a pixel; samples come bottom row first.
-void average_into(const std::vector<std::uint8_t>& samples, int samples_x, int samples_y, int skip_x, int skip_y, int x0, int y0, int width,
-                  int height, Image& image) {
+void average_into(const std::vector<std::uint8_t>& samples, int samples_x, int samples_y, int skip_x, int skip_y,
+                  int x0, int y0, int width, int height, Image& image) {
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       int sum[4] = {0, 0, 0, 0};
@@ -333,7 +355,8 @@ Image ViewPainter::paint(const ViewCamera& camera, const RunContext& context) {
       const int margin = alone ? 0 : tile_margin;
       ViewCamera tile = camera;
       tile.width = w + 2 * margin, tile.height = h + 2 * margin;
-      tile.centre += camera.metres_per_pixel * ((x0 + 0.5 * w - 0.5 * width) * camera.right + (0.5 * height - y0 - 0.5 * h) * camera.up);
+      tile.centre += camera.metres_per_pixel *
+                     ((x0 + 0.5 * w - 0.5 * width) * camera.right + (0.5 * height - y0 - 0.5 * h) * camera.up);
       if (!buffers_ || buffers_->width != w + 2 * margin || buffers_->height != h + 2 * margin) {
         buffers_.reset();
         buffers_ = std::make_unique<Buffers>(w + 2 * margin, h + 2 * margin);

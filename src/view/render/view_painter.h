@@ -21,7 +21,8 @@ class ViewPainter {
   ViewPainter(const Picture& picture, const SceneGeometry& surroundings, const Vec3& origin);
   ~ViewPainter();
 
-  /// The view at camera.width x camera.height pixels, in tiles. Stops early, leaving the rest white, when the context says so.
+  /// The view at camera.width x camera.height pixels, in tiles. Stops early, leaving the rest white, when the context
+  /// says so.
   Image paint(const ViewCamera& camera, const RunContext& context);
 
  private:
@@ -39,7 +40,8 @@ class ViewPainter {
 
   static Look look_of(const ViewCamera& camera);
   Span depth_span(const ViewCamera& camera, const std::vector<const TubeMesh*>& meshes) const;
-  void paint_tile(const ViewCamera& camera, const Span& span, const Look& look, const Marks& marks, const Buffers& buffers) const;
+  void paint_tile(const ViewCamera& camera, const Span& span, const Look& look, const Marks& marks,
+                  const Buffers& buffers) const;
   void draw_surroundings(const SceneGeometry::Page& page, GLuint cut, const Buffers& buffers) const;
   void draw_tubes(const SceneGeometry::Page& page, const Marks& marks, const Buffers& buffers) const;
   void compose(const SceneGeometry::Page& page, const Look& look, GLuint cut, const Buffers& buffers) const;
@@ -53,7 +55,7 @@ class ViewPainter {
   std::unique_ptr<Programs> programs_;
   std::unique_ptr<Tubes> tubes_;
   std::unique_ptr<Texture> palette_, colours_;
-  std::unique_ptr<Buffers> buffers_;    ///< kept from view to view: new ones cost more than drawing
+  std::unique_ptr<Buffers> buffers_;  ///< kept from view to view: new ones cost more than drawing
   std::vector<std::uint8_t> samples_;
 };
 

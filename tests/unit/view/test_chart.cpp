@@ -36,7 +36,8 @@ std::string complaint(const std::function<void(Chart&)>& spoil) {
 }
 
 std::filesystem::path fresh_folder(const char* name) {
-  const std::filesystem::path folder = std::filesystem::temp_directory_path() / ("tendril_test_chart_" + std::to_string(getpid()) + "_" + name);
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / ("tendril_test_chart_" + std::to_string(getpid()) + "_" + name);
   std::filesystem::remove_all(folder);
   return folder;
 }
@@ -58,7 +59,8 @@ TEST_CASE("a chart is written as PNG or SVG by its name, its folder made") {
   CHECK(read_file((folder / "a" / "chart.png").string()).substr(0, 8) == "\x89PNG\r\n\x1a\n");
   save_chart(small_chart(), (folder / "chart.svg").string());
   const std::string svg = read_file((folder / "chart.svg").string());
-  CHECK_THAT(svg, Contains("<svg") && Contains("Error against run time") && Contains("error [m]") && Contains("order 2"));
+  CHECK_THAT(svg,
+             Contains("<svg") && Contains("Error against run time") && Contains("error [m]") && Contains("order 2"));
   save_chart(small_chart(), (folder / "again.svg").string());
   CHECK(read_file((folder / "again.svg").string()) == svg);
   std::filesystem::remove_all(folder);
@@ -107,7 +109,8 @@ TEST_CASE("every kind, scale and number of points is drawn") {
           }
           chart.series.push_back(series);
         }
-        chart.references = {{ChartReference::Across::horizontal, 1.5, "limit"}, {ChartReference::Across::vertical, 2, "here"}};
+        chart.references = {{ChartReference::Across::horizontal, 1.5, "limit"},
+                            {ChartReference::Across::vertical, 2, "here"}};
         INFO("kind " << int(kind) << " log " << log << " points " << points);
         CHECK(save_chart(chart, (folder / "chart.svg").string()).drawn == static_cast<std::size_t>(2 * points));
         const std::string svg = read_file((folder / "chart.svg").string());
@@ -119,7 +122,8 @@ TEST_CASE("every kind, scale and number of points is drawn") {
 
 TEST_CASE("extreme numbers are drawn") {
   const auto folder = fresh_folder("extreme");
-  for (const std::vector<double>& y : {std::vector<double>{-1.7e308, 1.7e308}, {0, 0}, {1e-300, 1e300}, {5e-324, 1e-320}, {1e15, 1e15 + 1}}) {
+  for (const std::vector<double>& y :
+       {std::vector<double>{-1.7e308, 1.7e308}, {0, 0}, {1e-300, 1e300}, {5e-324, 1e-320}, {1e15, 1e15 + 1}}) {
     for (bool log : {false, true}) {
       Chart chart = small_chart();
       chart.series = {{"y", {1, 2}, y}};
@@ -137,9 +141,11 @@ TEST_CASE("texts are texts, whatever they hold") {
   std::filesystem::create_directories(folder);
   const std::filesystem::path trap = folder / "trap";
   const std::string order = "touch " + trap.string();
-  for (const std::string& hostile : {"`" + order + "`", "\"; system('" + order + "'); set title \"", "'; system \"" + order + "\"", "\\\"\n!" + order + "\n",
-                                     "$(" + order + ")", std::string("EOD\nsystem('" + order + "')\n"), std::string("a_b^c {/Bold x} @y & <b>&amp; \x01 \x80\xff é"),
-                                     std::string("%s %d %n \\140" + order + "\\140")}) {
+  for (const std::string& hostile :
+       {"`" + order + "`", "\"; system('" + order + "'); set title \"", "'; system \"" + order + "\"",
+        "\\\"\n!" + order + "\n", "$(" + order + ")", std::string("EOD\nsystem('" + order + "')\n"),
+        std::string("a_b^c {/Bold x} @y & <b>&amp; \x01 \x80\xff é"),
+        std::string("%s %d %n \\140" + order + "\\140")}) {
     Chart chart = small_chart();
     chart.title = chart.x_label = chart.y_label = chart.series[0].name = hostile;
     chart.references = {{ChartReference::Across::horizontal, 0.5, hostile}};
@@ -162,7 +168,8 @@ TEST_CASE("texts are texts, whatever they hold") {
 
 TEST_CASE("a reference line is drawn once each and keeps inside the axes") {
   Chart chart = small_chart();
-  chart.references = {{ChartReference::Across::horizontal, 3, "too high"}, {ChartReference::Across::vertical, 20, "too far"}};
+  chart.references = {{ChartReference::Across::horizontal, 3, "too high"},
+                      {ChartReference::Across::vertical, 20, "too far"}};
   const std::string script = chart_script(chart, "out", true).text;
   CHECK(count_of(script, "set arrow") == 2);
   double from = 0, to = 0;
@@ -193,7 +200,10 @@ TEST_CASE("what cannot be charted is refused with words") {
                c.categories = {"one"};
              }),
              Contains("4 bars for 1 categories"));
-  CHECK_THAT(complaint([](Chart& c) { c.references.push_back({ChartReference::Across::vertical, NAN, "x"}); }), Contains("reference line 'x'"));
+  CHECK_THAT(complaint([](Chart& c) {
+               c.references.push_back({ChartReference::Across::vertical, NAN, "x"});
+             }),
+             Contains("reference line 'x'"));
   CHECK_THROWS_WITH(save_chart(small_chart(), "chart.pdf"), Contains("'chart.pdf'") && Contains(".png or .svg"));
   CHECK_THROWS_WITH(save_chart(small_chart(), "/proc/nowhere/chart.svg"), Contains("/proc/nowhere/chart.svg"));
 }
@@ -218,7 +228,8 @@ TEST_CASE("a gnuplot that fails or hangs does no harm") {
   install("echo no licence for you; exit 3");
   CHECK_THAT(complaint([](Chart&) {}), Contains("gnuplot failed") && Contains("no licence for you"));
   install("exec 0<&-; sleep 0.05; exit 1");  // closes the pipe before it is fed
-  CHECK_THAT(complaint([](Chart& c) { c.series[0].x.assign(100000, 1), c.series[0].y.assign(100000, 1); }), Contains("gnuplot failed"));
+  CHECK_THAT(complaint([](Chart& c) { c.series[0].x.assign(100000, 1), c.series[0].y.assign(100000, 1); }),
+             Contains("gnuplot failed"));
   install("exec sleep 60");
   RunContext context;
   context.deadline = RunContext::Clock::now() + std::chrono::milliseconds(100);

@@ -39,7 +39,8 @@ TEST_CASE("bins cover the range evenly and hold every finite value, as counted b
     for (std::size_t k = 0; k < h.counts.size(); ++k) {
       std::size_t count = 0;
       for (double v : values)
-        count += std::isfinite(v) && v >= h.edges[k] && (v < h.edges[k + 1] || (k + 1 == h.counts.size() && v <= h.edges[k + 1]));
+        count += std::isfinite(v) && v >= h.edges[k] &&
+                 (v < h.edges[k + 1] || (k + 1 == h.counts.size() && v <= h.edges[k + 1]));
       CHECK(h.counts[k] == count);
     }
   }

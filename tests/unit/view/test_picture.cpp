@@ -39,7 +39,8 @@ std::string complaint(const std::function<void(Picture&)>& spoil) {
 }
 
 std::filesystem::path fresh_folder(const char* name) {
-  const std::filesystem::path folder = std::filesystem::temp_directory_path() / ("tendril_test_view_" + std::to_string(getpid()) + "_" + name);
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / ("tendril_test_view_" + std::to_string(getpid()) + "_" + name);
   std::filesystem::remove_all(folder);
   return folder;
 }
@@ -74,16 +75,23 @@ TEST_CASE("what cannot be drawn is refused with words") {
   CHECK_THAT(complaint([](Picture& p) { p.fit = PictureBox{{0, NAN, 0}, {1, 1, 1}}; }), Contains("fit box"));
   CHECK_THAT(complaint([](Picture& p) { p.scale.low = 2, p.scale.high = 1; }), Contains("is not below high"));
   CHECK_THAT(complaint([](Picture& p) { p.scale.limit = NAN; }), Contains("NaN"));
-  CHECK_THAT(complaint([](Picture& p) { p.arrows.push_back({Vec3::Zero(), Vec3::Zero(), false, {}, ""}); }), Contains("direction is zero"));
+  CHECK_THAT(complaint([](Picture& p) {
+               p.arrows.push_back({Vec3::Zero(), Vec3::Zero(), false, {}, ""});
+             }),
+             Contains("direction is zero"));
   CHECK_THAT(complaint([](Picture& p) { p.labels.push_back({Vec3(NAN, 0, 0), {}, "gap"}); }), Contains("label 'gap'"));
   CHECK_THAT(complaint([](Picture& p) { p.holds.push_back({}); }), Contains("radius"));
-  CHECK_THAT(complaint([](Picture& p) { p.paths.push_back({"plan", {{0, 0, 0}, {0, 0, 1}}, {}, 0}); }), Contains("path 'plan'") && Contains("width"));
+  CHECK_THAT(complaint([](Picture& p) {
+               p.paths.push_back({"plan", {{0, 0, 0}, {0, 0, 1}}, {}, 0});
+             }),
+             Contains("path 'plan'") && Contains("width"));
   CHECK_THAT(complaint([](Picture& p) {
                p.surfaces.emplace_back().name = "bay";
                p.surfaces[0].share = 0.9;
              }),
              Contains("surface 'bay'") && Contains("share"));
-  CHECK_THAT(complaint([](Picture& p) { p.surfaces.emplace_back().pose.rotation.coeffs() *= 2; }), Contains("not a rotation"));
+  CHECK_THAT(complaint([](Picture& p) { p.surfaces.emplace_back().pose.rotation.coeffs() *= 2; }),
+             Contains("not a rotation"));
   CHECK(complaint([](Picture&) {}) == "no complaint");
 }
 
@@ -160,7 +168,8 @@ TEST_CASE("odd but fair pictures are drawn") {
     picture.card = {"A title far too long for a page of this size", {{"label", "value"}, {"label", "value", true}}};
   }
   SECTION("hostile text") {
-    picture.card = {std::string("\xff\xfe\x80 % \0 \n\t", 10) + std::string(100000, 'x'), {{"\xf0\x9f\x98\x80", "\xc0\x80"}}};
+    picture.card = {std::string("\xff\xfe\x80 % \0 \n\t", 10) + std::string(100000, 'x'),
+                    {{"\xf0\x9f\x98\x80", "\xc0\x80"}}};
     picture.labels.push_back({{0.1, 0, 0}, {}, std::string(50000, '"')});
     picture.views = {"iso", "card"};
   }
@@ -227,7 +236,8 @@ TEST_CASE("a missing font is named with its package") {
 TEST_CASE("missing module", "[.fresh]") {
   REQUIRE_FALSE(osmesa_is_loaded());
   setenv("TENDRIL_MODULES", "/nonexistent", 1);
-  CHECK_THROWS_WITH(picture_png(small_picture(), {}), Contains("/nonexistent/tendril_render.so") && Contains("missing") && Contains("TENDRIL_MODULES"));
+  CHECK_THROWS_WITH(picture_png(small_picture(), {}),
+                    Contains("/nonexistent/tendril_render.so") && Contains("missing") && Contains("TENDRIL_MODULES"));
   const auto folder = fresh_folder("module");
   std::filesystem::create_directories(folder);
   std::ofstream(folder / "tendril_render.so") << "not a library";

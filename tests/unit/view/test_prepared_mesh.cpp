@@ -29,7 +29,8 @@ Mesh torn(const Mesh& mesh) {
 double total_area(const PreparedMesh& mesh) {
   double area = 0;
   for (std::size_t i = 0; i < mesh.triangles.size(); i += 3) {
-    const Eigen::Vector3f &a = mesh.positions[mesh.triangles[i]], &b = mesh.positions[mesh.triangles[i + 1]], &c = mesh.positions[mesh.triangles[i + 2]];
+    const Eigen::Vector3f &a = mesh.positions[mesh.triangles[i]], &b = mesh.positions[mesh.triangles[i + 1]],
+                          &c = mesh.positions[mesh.triangles[i + 2]];
     area += 0.5 * (b - a).cross(c - a).norm();
   }
   return area;
@@ -56,11 +57,14 @@ TEST_CASE("a cube has twelve feature edges and 24 corners with exact normals, to
     CHECK(p.edges.size() / 2 == 12);
     CHECK(p.positions.size() == 24);
     CHECK(p.triangles.size() / 3 == 12);
-    for (std::size_t i = 0; i < p.edges.size(); i += 2) CHECK((p.positions[p.edges[i]] - p.positions[p.edges[i + 1]]).norm() == Approx(1));  // no diagonal
+    for (std::size_t i = 0; i < p.edges.size(); i += 2)
+      CHECK((p.positions[p.edges[i]] - p.positions[p.edges[i + 1]]).norm() == Approx(1));  // no diagonal
     for (std::size_t i = 0; i < p.triangles.size(); i += 3) {
-      const Eigen::Vector3f &a = p.positions[p.triangles[i]], &b = p.positions[p.triangles[i + 1]], &c = p.positions[p.triangles[i + 2]];
+      const Eigen::Vector3f &a = p.positions[p.triangles[i]], &b = p.positions[p.triangles[i + 1]],
+                            &c = p.positions[p.triangles[i + 2]];
       const Eigen::Vector3f n = (b - a).cross(c - a).normalized();
-      for (int k = 0; k < 3; ++k) CHECK(std::abs(unfolded(p.normals[p.triangles[i + k]]).dot(n)) == Approx(1).margin(1e-4));
+      for (int k = 0; k < 3; ++k)
+        CHECK(std::abs(unfolded(p.normals[p.triangles[i + k]]).dot(n)) == Approx(1).margin(1e-4));
     }
   }
 }
@@ -84,7 +88,8 @@ TEST_CASE("a cylinder has its two rims, an open sheet its border, a perforated p
   sheet.wavy_sheet({0, 0, 0}, 1, 0, 10);
   CHECK(prepared(sheet).edges.size() / 2 == 4 * 10);
   plate.perforated_plate(0, 0.01, 0, 0, 0.1, 3, 2, 0.03);
-  // Per cell two rims of 32 sides; along the border 8 sides a cell side on both faces; four corners through the thickness.
+  // Per cell two rims of 32 sides; along the border 8 sides a cell side on both faces; four corners through the
+  // thickness.
   CHECK(prepared(plate).edges.size() / 2 == 6 * 2 * 32 + 2 * (2 * 3 + 2 * 2) * 8 + 4);
 }
 
@@ -119,7 +124,8 @@ TEST_CASE("sorting into pieces keeps every triangle, and every piece its box") {
   CHECK(p.triangles.size() == 3 * mesh.triangles.size());
   CHECK(p.triangle_pieces.size() > 8);
   double area = 0;
-  for (const auto& t : mesh.triangles) area += 0.5 * (mesh.vertices[t[1]] - mesh.vertices[t[0]]).cross(mesh.vertices[t[2]] - mesh.vertices[t[0]]).norm();
+  for (const auto& t : mesh.triangles)
+    area += 0.5 * (mesh.vertices[t[1]] - mesh.vertices[t[0]]).cross(mesh.vertices[t[2]] - mesh.vertices[t[0]]).norm();
   CHECK(total_area(p) == Approx(area).epsilon(1e-5));
   std::size_t counted = 0;
   for (const MeshPiece& piece : p.triangle_pieces) {
@@ -138,7 +144,8 @@ TEST_CASE("bad triangles are left out and counted, degenerate ones do no harm") 
   mesh.box({0, 0, 0}, {1, 1, 1});
   mesh.vertices.push_back({NAN, 0, 0});
   mesh.vertices.push_back({INFINITY, 0, 0});
-  for (std::array<std::int32_t, 3> bad : {std::array<std::int32_t, 3>{0, 1, 99}, {0, 1, -1}, {0, 1, 8}, {0, 1, 9}}) mesh.triangles.push_back(bad);
+  for (std::array<std::int32_t, 3> bad : {std::array<std::int32_t, 3>{0, 1, 99}, {0, 1, -1}, {0, 1, 8}, {0, 1, 9}})
+    mesh.triangles.push_back(bad);
   mesh.triangles.push_back({0, 0, 1});
   mesh.triangles.push_back({2, 2, 2});
   const PreparedMesh p = prepared(mesh);

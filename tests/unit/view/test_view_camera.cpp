@@ -33,7 +33,8 @@ TEST_CASE("a fitted view shows the balls in the middle of ten twelfths of the pa
   for (const char* name : {"iso", "front", "top", "side"})
     for (int run = 0; run < 50; ++run) {
       std::vector<FitBall> balls;
-      for (int i = 0; i < 20; ++i) balls.push_back({Vec3(place(random), place(random), place(random)) + Vec3(100, 200, -50), radius(random)});
+      for (int i = 0; i < 20; ++i)
+        balls.push_back({Vec3(place(random), place(random), place(random)) + Vec3(100, 200, -50), radius(random)});
       const ViewCamera c = fitted_camera(name, balls, 800, 600);
       double left = 1e9, right = -1e9, top = 1e9, bottom = -1e9;
       for (const FitBall& ball : balls) {
