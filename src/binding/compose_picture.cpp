@@ -81,9 +81,12 @@ void add_loads(const SolvedRod& rod, Picture& picture) {
   }
 }
 
-/// The smallest gap of all rods, drawn from surface to surface.
-void add_gap_label(const SceneEquilibrium& eq, const SolvedRod& rod, const Clearance& gap, Picture& picture) {
-  if (gap.obstacle < 0) return;
+using Gap = SceneEquilibrium::JudgedGap;
+using Gaps = std::vector<Gap>;
+
+/// A gap drawn from surface to surface.
+void add_gap_label(const SolvedRod& rod, const Gap& judged, Picture& picture) {
+  const Clearance& gap = judged.gap;
   PictureLabel label;
   const double radius = rod.problem.rod.section_at(gap.s).radius();
   const double way = (gap.on - gap.at).norm();
@@ -91,29 +94,29 @@ void add_gap_label(const SceneEquilibrium& eq, const SolvedRod& rod, const Clear
   label.to = gap.on;
   const bool touches = std::abs(gap.value) < 0.01 * radius;
   label.text = touches ? "touches" : gap.value > 0 ? "gap " + millimetres(gap.value) : "overlap " + millimetres(-gap.value);
-  label.alarm = gap.value < eq.obstacles[gap.obstacle].clearance;
+  label.alarm = judged.too_close;
   picture.labels.push_back(label);
 }
 
 using Rows = std::vector<PictureCard::Row>;
 
-void add_rod_rows(const SceneEquilibrium& eq, const SolvedRod& rod, const Clearance& gap, bool alone, Rows& rows) {
+void add_rod_rows(const SceneEquilibrium& eq, const SolvedRod& rod, const Gaps& gaps, bool alone, Rows& rows) {
   const std::string prefix = alone ? "" : rod.name + ": ";
   rows.push_back({prefix + "length", text("%.4g m", rod.problem.rod.length), false});
   const double bend = rod.equilibrium.smallest_bend_radius();
   rows.push_back({prefix + "min. bend radius", bend > 1e3 * rod.problem.rod.length ? "straight" : millimetres(bend), false});
-  if (eq.obstacles.empty()) return;
-  if (gap.obstacle < 0) {
-    rows.push_back({prefix + "min. clearance", "none near", false});
-    return;
+  if (!eq.obstacles.empty() && gaps.empty()) rows.push_back({prefix + "min. clearance", "none near", false});
+  constexpr std::size_t most = 4;  // obstacles with rows of their own
+  for (std::size_t i = 0; i < std::min(most, gaps.size()); ++i) {
+    const std::string& name = eq.obstacles[gaps[i].gap.obstacle].name;
+    std::string value = millimetres(gaps[i].gap.value);
+    if (i == 0 && eq.obstacles.size() > 1) value += " to " + name;
+    if (gaps[i].required > 0) value += " (required " + millimetres(gaps[i].required) + ")";
+    rows.push_back({prefix + (i == 0 ? "min. clearance" : "clearance to " + name), value, gaps[i].too_close});
   }
-  const PlacedObstacle& obstacle = eq.obstacles[gap.obstacle];
-  const std::string required = obstacle.clearance > 0 ? " (required " + millimetres(obstacle.clearance) + ")" : "";
-  rows.push_back({prefix + "min. clearance", millimetres(gap.value) + required, gap.value < obstacle.clearance - 1e-6});
-  if (eq.obstacles.size() > 1) rows.push_back({prefix + "nearest", obstacle.name, false});
 }
 
-PictureCard card_of(const SceneEquilibrium& eq, const std::vector<Clearance>& gaps, const std::string& title) {
+PictureCard card_of(const SceneEquilibrium& eq, const std::vector<Gaps>& gaps, const std::string& title) {
   PictureCard card;
   card.title = title.empty() ? (eq.rods.size() == 1 ? eq.rods.front().name : "equilibrium") : title;
   card.rows.push_back({"status", eq.ok() ? (eq.stable() ? "solved, stable" : "solved, not stable") : name_of(eq.status()),
@@ -155,16 +158,24 @@ std::optional<PictureBox> fit_box(const Shown& shown, const Picture& picture, co
   return PictureBox{box.min(), box.max()};
 }
 
+/// Labels the smallest gap of all rods, and every other that falls short of what is required.
+void add_gap_labels(const SceneEquilibrium& eq, const std::vector<Gaps>& gaps, Picture& picture) {
+  const Gap* tightest = nullptr;
+  for (const Gaps& of_rod : gaps)
+    if (!of_rod.empty() && (!tightest || of_rod.front().gap.value < tightest->gap.value)) tightest = &of_rod.front();
+  for (std::size_t i = 0; i < gaps.size(); ++i)
+    for (const Gap& gap : gaps[i])
+      if (&gap == tightest || gap.too_close) add_gap_label(eq.rods[i], gap, picture);
+}
+
 void add_solved(const SceneEquilibrium& eq, const PictureWish& wish, Picture& picture) {
-  std::vector<Clearance> gaps;
-  std::size_t tightest = 0;
+  std::vector<Gaps> gaps;
   for (const SolvedRod& rod : eq.rods) {
-    gaps.push_back(eq.clearance(rod));
-    if (gaps.back().value < gaps[tightest].value) tightest = gaps.size() - 1;
+    gaps.push_back(eq.judged_gaps(rod));
     add_holds(rod.problem.rod, rod.problem.holds, &rod.equilibrium, picture);
     add_loads(rod, picture);
   }
-  if (!eq.rods.empty()) add_gap_label(eq, eq.rods[tightest], gaps[tightest], picture);
+  add_gap_labels(eq, gaps, picture);
   picture.scale = compose_scale(eq, wish.colour);
   picture.card = card_of(eq, gaps, wish.title);
 }

@@ -48,22 +48,29 @@ Profile profile_of(const Equilibrium& eq, RodColour colour) {
   return profile;
 }
 
+/// What contact leaves of a penetration is none in a picture: where no clearance is required, touching is no offence.
+double shown_gap(double gap, double required, double radius) {
+  const bool touches = required == 0 && gap < 0 && !too_close(gap, required, radius);
+  return touches ? 0 : gap - required;
+}
+
 /// Smallest of gap minus `required` over the obstacles, or the plain gap to the nearest when all require the same. mm.
-double gap_at(const SceneEquilibrium& eq, const Vec3& p, double radius, bool alike) {
+double gap_at(const SceneEquilibrium& eq, const Vec3& p, double radius, std::optional<double> alike) {
   double least = std::numeric_limits<double>::infinity();
   if (alike) {
-    const ClosestPoint closest = eq.closest(p, -1);
-    if (closest.obstacle >= 0) least = closest.distance - radius;
+    const ClosestPoint closest = eq.closest(p);
+    if (closest.obstacle >= 0) least = shown_gap(closest.distance - radius, *alike, radius) + *alike;
   } else {
     for (int k = 0; k < static_cast<int>(eq.obstacles.size()); ++k) {
       const ClosestPoint closest = eq.closest(p, k);
-      if (closest.obstacle >= 0) least = std::min(least, closest.distance - radius - eq.obstacles[k].clearance);
+      if (closest.obstacle >= 0)
+        least = std::min(least, shown_gap(closest.distance - radius, eq.obstacles[k].clearance, radius));
     }
   }
   return std::isfinite(least) ? least / units::mm : unknown;
 }
 
-PictureTube compose_tube(const SceneEquilibrium& eq, const SolvedRod& rod, const PictureWish& wish, bool alike) {
+PictureTube compose_tube(const SceneEquilibrium& eq, const SolvedRod& rod, const PictureWish& wish, std::optional<double> alike) {
   const Rod& design = rod.problem.rod;
   PictureTube tube;
   tube.name = rod.name;
@@ -97,7 +104,7 @@ std::optional<double> common_clearance(const SceneEquilibrium& eq) {
 }
 
 std::vector<PictureTube> compose_tubes(const SceneEquilibrium& eq, const PictureWish& wish) {
-  const bool alike = common_clearance(eq).has_value();
+  const std::optional<double> alike = common_clearance(eq);
   std::vector<PictureTube> tubes;
   for (const SolvedRod& rod : eq.rods) tubes.push_back(compose_tube(eq, rod, wish, alike));
   return tubes;

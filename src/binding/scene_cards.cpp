@@ -20,22 +20,18 @@ std::string count(std::size_t number, const char* one, const char* many) {
   return std::to_string(number) + " " + (number == 1 ? one : many);
 }
 
-void add_clearance(Card& card, const std::string& label, const ClearanceValue& c) {
-  if (c.obstacle.empty()) {
-    card.row(label, "none near");
-    return;
+/// The smallest gap, and those to other obstacles that require one.
+void add_clearances(Card& card, const SceneEquilibrium& eq, const SolvedRod& rod, const std::string& prefix) {
+  constexpr std::size_t most = 6;  // obstacles with rows of their own
+  const std::vector<SceneEquilibrium::JudgedGap> gaps = eq.judged_gaps(rod);
+  if (gaps.empty()) card.row(prefix + "min clearance", "none near");
+  for (std::size_t i = 0; i < std::min(most, gaps.size()); ++i) {
+    const auto& [gap, required, too_close] = gaps[i];
+    const std::string& name = eq.obstacles[gap.obstacle].name;
+    std::string note = (i == 0 ? "to '" + name + "' " : "") + "at s = " + quantity(gap.s, "m");
+    if (required > 0) note += (too_close ? ", LESS than the required " : ", required ") + quantity(required, "m");
+    card.row(prefix + (i == 0 ? "min clearance" : "clearance to '" + name + "'"), gap.value, "m", note);
   }
-  std::string note = "to '" + c.obstacle + "' at s = " + quantity(c.clearance.s, "m");
-  if (c.required > 0)
-    note += (c.clearance.value < c.required ? ", LESS than the required " : ", required ") + quantity(c.required, "m");
-  card.row(label, c.clearance.value, "m", note);
-}
-
-ClearanceValue smallest_clearance(const SceneEquilibrium& eq, const SolvedRod& rod) {
-  const Clearance clearance = eq.clearance(rod);
-  if (clearance.obstacle < 0) return {clearance, "", 0};
-  const PlacedObstacle& obstacle = eq.obstacles[clearance.obstacle];
-  return {clearance, obstacle.name, obstacle.clearance};
 }
 
 void add_rod_rows(Card& card, const SceneEquilibrium& eq, const SolvedRod& rod, const std::string& prefix) {
@@ -44,7 +40,7 @@ void add_rod_rows(Card& card, const SceneEquilibrium& eq, const SolvedRod& rod, 
   card.row(prefix + "min bend radius", e.smallest_bend_radius(), "m");
   card.row(prefix + "max tension", e.largest_tension(), "N");
   card.row(prefix + "max strain", quantity(100 * e.largest_strain(), "%"));
-  if (!eq.obstacles.empty()) add_clearance(card, prefix + "min clearance", smallest_clearance(eq, rod));
+  if (!eq.obstacles.empty()) add_clearances(card, eq, rod, prefix);
 }
 
 std::string status_of(const SceneEquilibrium& eq) {

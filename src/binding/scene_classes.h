@@ -32,6 +32,7 @@ struct ClearanceValue {
   Clearance clearance;
   std::string obstacle;    ///< its name; empty: there is none
   double required = 0;     ///< m, of that obstacle
+  bool too_close = false;
   double value() const { return clearance.value; }
 };
 

@@ -93,6 +93,10 @@ Clearance smallest_gap(const GapAlong& gap, double begin, double end, double tol
 
 }  // namespace
 
+bool too_close(double gap, double required, double radius) {
+  return required > 0 ? gap < required : gap < -0.01 * radius;
+}
+
 Clearance clearance_of(const Rod& rod, const Equilibrium& equilibrium, const DistanceTo& distance, double begin,
                        double end) {
   Clearance best;

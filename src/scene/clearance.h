@@ -19,6 +19,10 @@ struct Clearance {
   int obstacle = -1;          ///< -1: nothing within the limit
 };
 
+/// True when a gap (m) falls short of the required one. Where none is required rods may touch: only a penetration of
+/// more than a hundredth of the rod's radius, well beyond what contact leaves, counts.
+bool too_close(double gap, double required, double radius);
+
 /// The closest surface point to `p`; signed inside a closed solid; obstacle -1: there is none.
 using DistanceTo = std::function<ClosestPoint(const Vec3& p)>;
 

@@ -117,6 +117,20 @@ Clearance SceneEquilibrium::clearance(const SolvedRod& from, int to, double begi
   return clearance_of(design, from.equilibrium, distance, begin, end < 0 ? design.length : end);
 }
 
+std::vector<SceneEquilibrium::JudgedGap> SceneEquilibrium::judged_gaps(const SolvedRod& rod) const {
+  std::vector<JudgedGap> all;
+  const auto judge = [&](const Clearance& gap) {
+    if (gap.obstacle < 0) return;
+    const double required = obstacles[gap.obstacle].clearance;
+    all.push_back({gap, required, too_close(gap.value, required, rod.problem.rod.section_at(gap.s).radius())});
+  };
+  const Clearance nearest = clearance(rod);
+  judge(nearest);
+  for (int k = 0; k < static_cast<int>(obstacles.size()); ++k)
+    if (k != nearest.obstacle && obstacles[k].clearance > 0) judge(clearance(rod, k));
+  return all;
+}
+
 Reaction SceneEquilibrium::reaction(const SolvedRod& rod, double at) const {
   const double length = rod.problem.rod.length;
   std::string places;

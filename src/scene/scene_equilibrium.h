@@ -53,6 +53,15 @@ struct SceneEquilibrium {
   /// negative `end`: the rod's length). Infinite, with obstacle -1, when there is none.
   Clearance clearance(const SolvedRod& from, int to = -1, double begin = 0, double end = -1) const;
 
+  /// What an engineer looks at on one rod: the smallest gap of all, then that to every other obstacle which requires
+  /// some clearance. Empty without obstacles.
+  struct JudgedGap {
+    Clearance gap;
+    double required = 0;     ///< m
+    bool too_close = false;  ///< see too_close()
+  };
+  std::vector<JudgedGap> judged_gaps(const SolvedRod& rod) const;
+
   /// What the support does to the rod at a hold: force in N and moment in N m in world axes. Throws UsageError where the
   /// rod is not held.
   Reaction reaction(const SolvedRod& rod, double at) const;

@@ -108,3 +108,25 @@ TEST_CASE("without obstacles the clearance is infinite and names none", "[scene]
   CHECK(std::isinf(gap.value));
   CHECK(gap.obstacle == -1);
 }
+
+TEST_CASE("touching is allowed where no clearance is required", "[scene][clearance]") {
+  CHECK_FALSE(too_close(-1e-5, 0, 0.01));
+  CHECK(too_close(-2e-4, 0, 0.01));
+  CHECK_FALSE(too_close(0.008, 0.008, 0.01));
+  CHECK(too_close(0.0079, 0.008, 0.01));
+}
+
+TEST_CASE("an obstacle that asks for more room is judged even when another is nearer", "[scene][clearance]") {
+  const SceneEquilibrium eq = with_obstacles(
+      sagging_hose(), {solid("near", HalfSpace{}, {0, 0, 0.5}), solid("hot", HalfSpace{}, {0, 0, 0.4}, 0.5),
+                       solid("wide", HalfSpace{}, {0, 0, 0.3}, 0.1), solid("far", HalfSpace{}, {0, 0, -1})});
+  const auto gaps = eq.judged_gaps(eq.rods.front());
+  REQUIRE(gaps.size() == 3);
+  CHECK(gaps[0].gap.obstacle == 0);
+  CHECK_FALSE(gaps[0].too_close);
+  CHECK(gaps[1].gap.obstacle == 1);
+  CHECK(gaps[1].too_close);
+  CHECK(gaps[1].gap.value == Approx(gaps[0].gap.value + 0.1));
+  CHECK(gaps[2].gap.obstacle == 2);
+  CHECK_FALSE(gaps[2].too_close);
+}
