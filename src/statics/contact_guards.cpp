@@ -67,12 +67,6 @@ bool ContactGuard::slips_between(const std::vector<Vec3>& moved) {
   return false;
 }
 
-bool ContactGuard::passes(const std::vector<Vec3>& moved) {
-  std::vector<Blockade> blockades;
-  limit_by_points(moved, blockades);
-  return blockades.empty() && !slips_between(moved);
-}
-
 GuardedStep ContactGuard::admit(const VertexShape& shape, std::span<const Vec6> step, double most) {
   GuardedStep guarded{most, {}};
   for (int trial = 0; trial < most_trials; ++trial) {

@@ -39,9 +39,6 @@ class ContactGuard {
   ///    is less, stays above the plane of the hit.
   GuardedStep admit(const VertexShape& shape, std::span<const Vec6> step, double most = 1);
 
-  /// Like admit() for given positions after the whole step: true when nothing passes through a surface.
-  bool passes(const std::vector<Vec3>& moved);
-
   /// To be called when the set stands at a new accepted shape: crossings that are gone are guarded from now on.
   void accept();
 

@@ -130,8 +130,6 @@ void ContactSet::share_shifts() {
   }
 }
 
-void ContactSet::clear_shifts() { std::fill(shift_.begin(), shift_.end(), 0.0); }
-
 double ContactSet::deepest() const {
   double deepest = -std::numeric_limits<double>::infinity();
   for (int i = 0; i < size(); ++i)

@@ -49,7 +49,6 @@ class ContactSet {
   /// Augmented Lagrangian: shift <- max(0, shift + radius - distance) at the last positions. The force stays, the
   /// penetration goes. Points of one group share the largest shift among them.
   void update_shifts();
-  void clear_shifts();
   const std::vector<double>& shifts() const { return shift_; }
   void set_shifts(const std::vector<double>& shifts) { shift_ = shifts; }
 

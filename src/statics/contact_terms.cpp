@@ -117,7 +117,7 @@ ContactTerms::Deepest ContactTerms::deepest_between(int i, const VertexShape& sh
   const ContactPoint &a = set_->points()[i], &b = set_->points()[i + 1];
   const double reach = a.radius;
   Deepest deepest;
-  const Vec3 xa = position_of(a, shape), xb = position_of(b, shape);
+  const Vec3 &xa = set_->positions()[i], &xb = set_->positions()[i + 1];
   // No place between the two is nearer than this.
   const double apart = (xb - xa).norm();
   if (set_->distance_bound(i, xa) > reach + apart || set_->distance_bound(i + 1, xb) > reach + apart) return deepest;
@@ -145,7 +145,8 @@ ContactTerms::Deepest ContactTerms::deepest_between(int i, const VertexShape& sh
   return deepest;
 }
 
-ContactTerms::Deepest ContactTerms::deepest_at(const RodState& state) const {
+ContactTerms::Deepest ContactTerms::deepest_at(const RodState& state) {
+  stand_at(state);
   const VertexShape shape = shape_of(state);
   Deepest deepest;
   for (int i = 0; i < set_->size(); ++i) {
@@ -162,6 +163,7 @@ ContactTerms::Deepest ContactTerms::deepest_at(const RodState& state) const {
 }
 
 int ContactTerms::refine(const RodState& state, double most, double window) {
+  stand_at(state);
   const VertexShape shape = shape_of(state);
   std::vector<int> intervals;
   for (int i = 0; i + 1 < set_->size(); ++i)

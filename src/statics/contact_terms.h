@@ -44,7 +44,7 @@ class ContactTerms final : public FurtherTerms {
     int obstacle = -1;
     ContactPoint point{};
   };
-  Deepest deepest_at(const RodState& state) const;
+  Deepest deepest_at(const RodState& state);
 
   /// Adds points where the rod overlaps more than `most` radii between two points, and `window` radii to both sides: four
   /// times as many there. They form a group (contact_set.h). Returns how many were added.
