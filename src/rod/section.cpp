@@ -1,23 +1,17 @@
 #include "rod/section.h"
 
 #include <cmath>
-#include <cstdio>
 #include <string>
 
 #include "base/error.h"
+#include "base/number_text.h"
 #include "base/units.h"
 
 namespace tendril {
 namespace {
 
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%g", value);
-  return text;
-}
-
 void require(bool good, const char* who, const char* what, double got, const char* expected) {
-  if (!good) throw UsageError(std::string(who) + ": '" + what + "' is " + number(got) + ", expected " + expected);
+  if (!good) throw UsageError(std::string(who) + ": '" + what + "' is " + number_text(got) + ", expected " + expected);
 }
 
 void require_positive(const char* who, const char* what, double value) {

@@ -5,11 +5,12 @@
 // geometric terms from the linearised strains of the step before, which never saw that false stretch.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "base/run_context.h"
-#include "statics/block_ldlt.h"
 #include "statics/rod_system.h"
+#include "statics/step_system.h"
 
 namespace tendril {
 
@@ -51,34 +52,33 @@ struct NewtonOutcome {
 
 class Newton {
  public:
-  Newton(RodSystem& system, FurtherTerms* further) : system_(system), further_(further) {}
+  Newton(RodSystem& system, FurtherTerms* further) : system_(system), further_(further), linear_(system) {}
 
   /// Moves `state` to an equilibrium, or as far as it gets.
   NewtonOutcome run(RodState& state, const NewtonOptions& options, const RunContext& context);
 
-  /// Inertia of the true second derivative at a state: the number of pivots that are not positive.
-  int negative_pivots_at(const RodState& state);
-
  private:
-  void assemble(const RodState& state, Stress stress);
-  void add_shift(double change);
-  void take_out_held(const RodState& state);
-  int factor_positive(const NewtonOptions& options, int& factorisations);
-  void solve_step(const RodState& state);
-  void move_along_softest_mode(RodState& state);
-  double size_of_step() const;
-  double armijo_share(const RodState& state, double share) const;
-  double energy_at(const RodState& state) const;
+  void assemble(const RodState& state);
+  std::optional<double> guarded_share(const RodState& state, double share);
+  double descending_share(const RodState& state, double share);
+  double armijo_share(const RodState& state, double share);
+  double energy_at(const RodState& state);
+  bool settled(double size, const NewtonOptions& options);
+  void leave_saddle(RodState& state);
 
   RodSystem& system_;
   FurtherTerms* further_;
-  BlockSystem block_;
-  BlockLdlt ldlt_;
-  std::vector<Vec6> step_;
-  std::vector<Vec6> wanted_;   ///< what is left to the holds' places; empty when they are in place
-  mutable std::vector<Vec6> scratch_;
+  StepSystem linear_;
+  std::vector<Vec6> step_, scratch_;
   double energy_ = 0;
-  double shift_ = 0, last_shift_ = 0;
+
+  // How the computation stands.
+  Stress stress_ = Stress::zero;  ///< of the last assembly
+  double previous_size_ = 0;      ///< of the step before
+  double smallest_size_ = 0;
+  int blocked_ = 0;               ///< rounds in which the guards cut the step short
+  int not_shrinking_ = 0;         ///< rounds at the level of rounding
+  int mode_moves_ = 0;
 };
 
 }  // namespace tendril

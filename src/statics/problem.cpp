@@ -1,23 +1,17 @@
 #include "statics/problem.h"
 
 #include <cmath>
-#include <cstdio>
 #include <string>
 
 #include "base/error.h"
+#include "base/number_text.h"
 
 namespace tendril {
 namespace {
 
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%g", value);
-  return text;
-}
-
 void check_place(const char* what, double at, double length) {
   if (!(at >= -1e-9 * length && at <= length * (1 + 1e-9)))
-    throw UsageError(std::string(what) + " at arc length " + number(at) + " m lies outside the rod (0 to " + number(length) +
+    throw UsageError(std::string(what) + " at arc length " + number_text(at) + " m lies outside the rod (0 to " + number_text(length) +
                      " m)");
 }
 
@@ -28,13 +22,13 @@ void check_holds(const RodProblem& problem) {
     const Hold& hold = problem.holds[k];
     check_place("hold", hold.at, length);
     if (!all_finite(hold.frame.at) || !all_finite(hold.frame.rotation.coeffs()) || !std::isfinite(hold.turns))
-      throw UsageError("hold at " + number(hold.at) + " m: its frame and turns must be finite numbers");
+      throw UsageError("hold at " + number_text(hold.at) + " m: its frame and turns must be finite numbers");
     position |= hold.position;
     for (std::size_t j = 0; j < k; ++j) {
       const Hold& other = problem.holds[j];
       if (std::abs(other.at - hold.at) > 1e-9 * length) continue;
       if ((other.position && hold.position) || (other.orientation && hold.orientation))
-        throw UsageError("two holds at arc length " + number(hold.at) +
+        throw UsageError("two holds at arc length " + number_text(hold.at) +
                          " m contradict each other; hold a place once, or its position and orientation apart");
     }
   }
@@ -51,13 +45,13 @@ void RodProblem::check() const {
   for (const PointLoad& load : loads) {
     check_place("load", load.at, rod.length);
     if (!all_finite(load.force) || !all_finite(load.moment))
-      throw UsageError("load at " + number(load.at) + " m: force and moment must be finite numbers");
+      throw UsageError("load at " + number_text(load.at) + " m: force and moment must be finite numbers");
   }
   double softest = INFINITY;
   for (const RodPart& part : rod.parts) softest = std::min(softest, part.section.EA);
   const double weight = rod.mass() * gravity.norm();
   if (weight > softest)
-    throw UsageError("the rod weighs " + number(weight) + " N but its stretch stiffness EA is only " + number(softest) +
+    throw UsageError("the rod weighs " + number_text(weight) + " N but its stretch stiffness EA is only " + number_text(softest) +
                      " N: it would more than double its length; check young, EA, density and the units");
 }
 

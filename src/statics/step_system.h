@@ -1,0 +1,49 @@
+// The linear system of one Newton step: held unknowns taken out, a shift where the matrix is not positive, dead moments.
+#pragma once
+
+#include <vector>
+
+#include "statics/block_ldlt.h"
+#include "statics/rod_system.h"
+
+namespace tendril {
+
+class StepSystem {
+ public:
+  explicit StepSystem(const RodSystem& system) : system_(system) {}
+
+  BlockSystem block;  ///< to be assembled before each step
+
+  /// A new computation: no shift.
+  void begin() { shift_ = last_shift_ = 0; }
+
+  /// Takes the held unknowns out and lets the holds' remaining way to their places act on the others.
+  void take_out_held(const RodState& state);
+
+  /// Factorises. `only_positive`: with a shift where needed. Returns the number of pivots that were not positive before
+  /// any shift larger than a neutral direction's; adds to `factorisations`.
+  int factor(bool only_positive, int& factorisations);
+  bool broken() const { return ldlt_.broken(); }
+
+  void solve(const RodState& state, std::vector<Vec6>& step) const;
+
+  /// The direction in which the energy curves least, by inverse iteration with the last factor.
+  std::vector<Vec6> softest_mode() const;
+
+  /// max(rotation in rad, move over the length); infinite when something is not a number.
+  double size_of(const std::vector<Vec6>& step) const;
+
+  double shift() const { return shift_; }
+  void relax_shift();  ///< after a full step
+
+ private:
+  void add_shift(double change);
+  void solve_with_moments(const RodState& state, std::vector<Vec6>& step) const;
+
+  const RodSystem& system_;
+  BlockLdlt ldlt_;
+  std::vector<Vec6> wanted_;  ///< what is left to the holds' places; empty when they are in place
+  double shift_ = 0, last_shift_ = 0;
+};
+
+}  // namespace tendril
