@@ -47,7 +47,8 @@ void bind_curve(lua_State* L) {
       .method("at", {.takes = {"s"}, .does = "Place and orientation at an arc length in m; along is the tangent.",
                      .example = "print(curve.polyline{{0, 0, 0}, {1, 0, 0}}:at(0.25).at)  --> vec(0.25, 0, 0)"},
               [](const Curve& c, double s) { return c.at(s); })
-      .method("min_bend_radius", {.does = "The smallest bend radius in m, and where; 0 at a polyline's corner, math.huge when straight."},
+      .method("min_bend_radius", {.does = "The smallest bend radius in m, and where; 0 at a polyline's corner, math.huge when straight.",
+                         .example = "local radius, s = curve.pcc{points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}, radius = 0.1}:min_bend_radius()\nprint(radius)  --> 0.1"},
               [](lua_State* state, const Curve& c) {
                 lua_pushnumber(state, c.min_bend_radius());
                 lua_pushnumber(state, c.min_bend_radius_at());

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 
+#include "binding/examples.h"
 #include "binding/scene_cards.h"
 #include "binding/lua_class.h"
 #include "binding/open.h"
@@ -26,10 +27,11 @@ double place_on(const SolvedRod& rod, const Where& where) {
   throw UsageError("equilibrium: unknown place '" + *end + "', expected \"start\", \"finish\" or an arc length in m");
 }
 
-ClearanceValue clearance_value(const SceneEquilibrium& eq, const Clearance& clearance) {
-  if (clearance.obstacle < 0) return {clearance, "", 0};
+ClearanceValue clearance_value(const SceneEquilibrium& eq, const SolvedRod& rod, const Clearance& clearance) {
+  if (clearance.obstacle < 0) return {clearance, "", 0, false};
   const PlacedObstacle& obstacle = eq.obstacles[clearance.obstacle];
-  return {clearance, obstacle.name, obstacle.clearance};
+  const double radius = rod.problem.rod.section_at(clearance.s).radius();
+  return {clearance, obstacle.name, obstacle.clearance, too_close(clearance.value, obstacle.clearance, radius)};
 }
 
 Schema clearance_options() {
@@ -44,7 +46,7 @@ ClearanceValue clearance_between(const SceneEquilibrium& eq, const Options& o) {
     throw UsageError("equilibrium:clearance: 'from' is missing: there are " + std::to_string(eq.rods.size()) + " rods");
   const SolvedRod& rod = o.has("from") ? eq.rod(o.get<std::string>("from")) : eq.rods.front();
   const int to = o.has("to") ? eq.obstacle(o.get<std::string>("to")) : -1;
-  return clearance_value(eq, eq.clearance(rod, to));
+  return clearance_value(eq, rod, eq.clearance(rod, to));
 }
 
 std::vector<ContactHandle> contacts_of(const SceneEquilibrium& eq, const SolvedRod& rod) {
@@ -85,7 +87,8 @@ void bind_values(lua_State* L) {
         return c.obstacle.empty() ? std::nullopt : std::optional<std::string>(c.obstacle);
       })
       .property("required", "m", "The clearance required of that obstacle", [](const ClearanceValue& c) { return c.required; })
-      .property("ok", "", "At least the required clearance", [](const ClearanceValue& c) { return c.clearance.value >= c.required; })
+      .property("ok", "", "At least the required clearance; where none is required, no penetration beyond that of contact",
+                [](const ClearanceValue& c) { return !c.too_close; })
       .tostring(describe_clearance);
   compute_as_number(clearance);
 
@@ -137,9 +140,10 @@ void bind_solved_rod(lua_State* L) {
       .property("max_strain", "", "The largest", [](const SolvedRodHandle& r) { return r.rod().equilibrium.largest_strain(); })
       .property("length", "m", "Of the deformed centre line", [](const SolvedRodHandle& r) { return r.rod().equilibrium.settled_length(); })
       .property("clearance", "m", "Smallest gap to any obstacle",
-                [](const SolvedRodHandle& r) { return clearance_value(*r.equilibrium, r.equilibrium->clearance(r.rod())); })
+                [](const SolvedRodHandle& r) { return clearance_value(*r.equilibrium, r.rod(), r.equilibrium->clearance(r.rod())); })
       .property("contacts", "", "Forces of the surroundings on it", [](const SolvedRodHandle& r) { return contacts_of(*r.equilibrium, r.rod()); })
-      .method("at", {.takes = {"s"}, .does = "The section's frame at an arc length in m."},
+      .method("at", {.takes = {"s"}, .does = "The section's frame at an arc length in m.",
+                         .example = with_equilibrium("print(eq:rod(\"hose\"):at(0.5).at)")},
               [](const SolvedRodHandle& r, double s) {
                 const double length = r.rod().problem.rod.length;
                 if (s < 0 || s > length)
@@ -183,21 +187,26 @@ void bind_equilibrium(lua_State* L) {
           for (ContactHandle& contact : contacts_of(e, rod)) all.push_back(std::move(contact));
         return all;
       })
-      .method("rod", {.takes = {"name"}, .does = "One rod in equilibrium."},
+      .method("rod", {.takes = {"name"}, .does = "One rod in equilibrium.",
+                         .example = with_equilibrium("print(eq:rod(\"hose\").min_bend_radius / units.mm)")},
               [](Eq e, const std::string& name) { return SolvedRodHandle{e, index_of(*e, name)}; })
-      .method("force", {.takes = {"name", "where"}, .does = "Force (N, world axes) of the support on the rod at a hold."},
+      .method("force", {.takes = {"name", "where"}, .does = "Force (N, world axes) of the support on the rod at a hold.",
+                         .example = with_equilibrium("print(eq:force(\"hose\", \"start\"))")},
               [](const SceneEquilibrium& e, const std::string& name, const Where& where) {
                 const SolvedRod& rod = e.rod(name);
                 return e.reaction(rod, place_on(rod, where)).force;
               })
       .method("moment", {.takes = {"name", "where"},
-                         .does = "Moment (N m, world axes, about the centre line) of the support on the rod at a hold."},
+                         .does = "Moment (N m, world axes, about the centre line) of the support on the rod at a hold.",
+                         .example = with_equilibrium("print(eq:moment(\"hose\", \"finish\"))")},
               [](const SceneEquilibrium& e, const std::string& name, const Where& where) {
                 const SolvedRod& rod = e.rod(name);
                 return e.reaction(rod, place_on(rod, where)).moment;
               })
       .method("clearance", {.options = clearance_options(),
-                            .does = "The smallest gap between a rod's surface and an obstacle; computes as a number in m."},
+                            .does = "The smallest gap between a rod's surface and an obstacle; computes as a number in m.",
+                         .example = with_hose("s:obstacle(\"floor\", scene.plane{}, {pose = frame{at = {0, 0, -1}, along = {0, 0, 1}}})\n"
+                                                 "print(s:solve{}:clearance{to = \"floor\"} / units.mm)")},
               [](const SceneEquilibrium& e, const Options& o) { return clearance_between(e, o); })
       .tostring(describe_equilibrium);
 }

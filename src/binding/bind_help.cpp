@@ -1,4 +1,4 @@
-#include <cstdio>
+#include <algorithm>
 
 #include "base/nearest_name.h"
 #include "binding/help_text.h"
@@ -17,13 +17,19 @@ std::vector<std::string> all_names(const Registry& registry) {
   return names;
 }
 
-/// The value of a global path such as "bay" or "bay.hose", pushed; false when there is none.
+/// The value of a global path such as "bay" or "parts.bay", pushed; false when there is none. Runs no code.
 bool push_global(lua_State* L, const std::string& path) {
-  const std::string chunk = "return " + path;
-  if (luaL_loadbufferx(L, chunk.data(), chunk.size(), "=help", "t") == LUA_OK && lua_pcall(L, 0, 1, 0) == LUA_OK &&
-      !lua_isnil(L, -1))
-    return true;
-  lua_pop(L, 1);
+  const int top = lua_gettop(L);
+  lua_pushglobaltable(L);
+  for (std::size_t from = 0; from <= path.size();) {
+    const std::size_t to = std::min(path.find('.', from), path.size());
+    if (!lua_istable(L, -1)) break;
+    lua_pushlstring(L, path.data() + from, to - from);
+    lua_rawget(L, -2);
+    from = to + 1;
+    if (from > path.size() && !lua_isnil(L, -1)) return true;
+  }
+  lua_settop(L, top);
   return false;
 }
 
@@ -37,6 +43,7 @@ std::string help_of_value(lua_State* L, int index) {
 
 void help(lua_State* L, std::optional<Any> subject) {
   const Registry& registry = *context(L).registry;
+  const int top = lua_gettop(L);
   std::string text;
   if (!subject) {
     text = help_overview(registry);
@@ -46,7 +53,7 @@ void help(lua_State* L, std::optional<Any> subject) {
     if (text.empty() && push_global(L, name)) {
       text = help_of_value(L, -1);
       if (text.empty()) text = name + " is " + describe(L, -1) + "; there is no help about it";
-      lua_pop(L, 1);
+      lua_settop(L, top);
     }
     if (text.empty()) {
       const std::string near = nearest_name(name, all_names(registry));

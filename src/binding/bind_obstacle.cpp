@@ -141,14 +141,18 @@ void add_solids(lua_State* L, Module& scene) {
                   return box;
                 })
       .function("sphere", {.options = {option<double>("radius", "m", "Radius; its middle is the pose's place").required().above(0)},
-                           .does = "A sphere."},
+                           .does = "A sphere.",
+                         .example = "print(scene.sphere{radius = 0.2})  --> sphere of radius 200 mm"},
                 [](const Options& o) { return SolidValue{Sphere{o.get<double>("radius")}}; })
       .function("cylinder",
                 {.options = {option<double>("radius", "m", "Radius").required().above(0),
                              option<double>("length", "m", "Length along its z; its middle is the pose's place").required().above(0)},
-                 .does = "A cylinder with flat ends."},
+                 .does = "A cylinder with flat ends.",
+                         .example = "print(scene.cylinder{radius = 0.1, length = 2})  --> cylinder of radius 100 mm, length 2 m"},
                 [](const Options& o) { return SolidValue{Cylinder{o.get<double>("radius"), o.get<double>("length")}}; })
-      .function("plane", {.does = "Everything below a plane: solid where its own z is less than 0. `pose = frame{at =, along = normal}` places it."},
+      .function("plane", {.does = "Everything below a plane: solid where its own z is less than 0. `pose = frame{at =, along = normal}` places it.",
+                         .example = "local s = scene.new{}\n"
+                         "s:obstacle(\"floor\", scene.plane{}, {pose = frame{at = {0, 0, -1}, along = {0, 0, 1}}})"},
                 [](const Options&) { return SolidValue{HalfSpace{}}; });
 }
 

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "binding/examples.h"
 #include "binding/lua_class.h"
 #include "binding/open.h"
 #include "binding/card.h"
@@ -223,7 +224,8 @@ void bind_design(lua_State* L) {
         if (!shape) return std::nullopt;
         return shape->curve;
       })
-      .method("section_at", {.takes = {"s"}, .does = "The section at an arc length in m."},
+      .method("section_at", {.takes = {"s"}, .does = "The section at an arc length in m.",
+                         .example = with_hose("print(r:section_at(0.5).outer)  --> 0.02")},
               [](const Rod& r, double s) { return r.section_at(s); })
       .method("with",
               {.options = design_options(false), .does = "A changed copy; this one stays as it is.",

@@ -1,5 +1,6 @@
 // scene: the world. Obstacles, rods in their places, loads, and the solve.
 #include "binding/bind_obstacle.h"
+#include "binding/examples.h"
 #include "binding/lua_class.h"
 #include "binding/open.h"
 #include "binding/scene_cards.h"
@@ -65,14 +66,16 @@ void bind_placed_rod(lua_State* L) {
                 p->rod().hold(hold);
                 return p;
               })
-      .method("release", {.takes = {"where"}, .does = "Removes the hold at a place."},
+      .method("release", {.takes = {"where"}, .does = "Removes the hold at a place.",
+                         .example = with_hose("p:release(\"finish\")")},
               [](std::shared_ptr<PlacedRodHandle> p, const Where& where) {
                 p->rod().release(place_of(p->rod(), where));
                 return p;
               })
       .method("load",
               {.takes = {"where"}, .options = load_options(),
-               .does = "Adds a dead load (constant in world axes) at \"start\", \"finish\" or an arc length in m."},
+               .does = "Adds a dead load (constant in world axes) at \"start\", \"finish\" or an arc length in m.",
+                         .example = with_hose("p:load(0.5, {force = {0, 0, -2}})")},
               [](std::shared_ptr<PlacedRodHandle> p, const Where& where, const Options& o) {
                 if (!o.has("force") && !o.has("moment"))
                   throw UsageError("placed_rod:load: give 'force', 'moment' or both");
@@ -83,7 +86,8 @@ void bind_placed_rod(lua_State* L) {
                 p->rod().load(load);
                 return p;
               })
-      .method("unload", {.does = "Removes all its loads."},
+      .method("unload", {.does = "Removes all its loads.",
+                         .example = with_hose("p:load(0.5, {force = {0, 0, -2}}):unload()")},
               [](std::shared_ptr<PlacedRodHandle> p) {
                 p->rod().unload();
                 return p;
@@ -123,17 +127,20 @@ void bind_scene_class(lua_State* L) {
                 s->add(make_obstacle(L, name, shape, o));
                 return s;
               })
-      .method("rod", {.takes = {"name", "design"}, .options = rod_options(), .does = "Places a rod; ends not given stay free."},
+      .method("rod", {.takes = {"name", "design"}, .options = rod_options(), .does = "Places a rod; ends not given stay free.",
+                         .example = with_hose("print(p)")},
               [](std::shared_ptr<Scene> s, const std::string& name, const Rod& design, const Options& o) {
                 s->add(PlacedRod(name, design, o.maybe<Frame>("from"), o.maybe<Frame>("to")));
                 return PlacedRodHandle{s, name};
               })
-      .method("placed", {.takes = {"name"}, .does = "The placed rod of this name."},
+      .method("placed", {.takes = {"name"}, .does = "The placed rod of this name.",
+                         .example = with_hose("print(s:placed(\"hose\").name)  --> hose")},
               [](std::shared_ptr<Scene> s, const std::string& name) {
                 s->rod(name);
                 return PlacedRodHandle{s, name};
               })
-      .method("remove", {.takes = {"name"}, .does = "Removes a rod or an obstacle."},
+      .method("remove", {.takes = {"name"}, .does = "Removes a rod or an obstacle.",
+                         .example = with_hose("s:remove(\"hose\")")},
               [](std::shared_ptr<Scene> s, const std::string& name) {
                 s->remove(name);
                 return s;
@@ -142,10 +149,12 @@ void bind_scene_class(lua_State* L) {
               {.options = solve_schema() +
                           Schema{option<SceneEquilibrium>("from", "", "Start from this equilibrium of a similar scene")} +
                           timeout_schema(),
-               .does = "Static equilibrium of every rod. Look at .ok: what does not converge is a result, not an error."},
+               .does = "Static equilibrium of every rod. Look at .ok: what does not converge is a result, not an error.",
+                         .example = with_hose("local eq = s:solve{}\nprint(eq.ok, eq.status)  --> true solved")},
               [](lua_State* L, const Scene& s, const Options& o) { return solved(L, s, o); })
       .method("explain",
-              {.options = solve_schema(), .does = "Which terms, contacts and solvers this scene uses, and what was left out."},
+              {.options = solve_schema(), .does = "Which terms, contacts and solvers this scene uses, and what was left out.",
+                         .example = with_hose("print(s:explain())")},
               [](const Scene& s, const Options& o) { return explain(s, solve_options(o)); })
       .tostring(describe_scene);
 }
@@ -159,7 +168,8 @@ void bind_explanation(lua_State* L) {
       .tostring([](const ExplainedItem& i) { return i.subject + ": " + (i.used ? "" : "no ") + i.name + ", " + i.why; });
   Class<Explanation>(L, "What a solve does and what it leaves out")
       .list([](const Explanation& e) { return e.items.size(); }, [](const Explanation& e, std::size_t i) { return e.items[i]; })
-      .method("uses", {.takes = {"name"}, .does = "True when some rod or the scene uses this: \"gravity\", \"contact\" ..."},
+      .method("uses", {.takes = {"name"}, .does = "True when some rod or the scene uses this: \"gravity\", \"contact\" ...",
+                         .example = with_hose("print(s:explain():uses(\"gravity\"))  --> true")},
               [](const Explanation& e, const std::string& name) { return e.uses(name); })
       .tostring([](const Explanation& e) { return e.text(); });
 }

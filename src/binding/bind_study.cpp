@@ -1,6 +1,7 @@
 // study: charts, and what a result costs.
 #include "binding/accuracy_chart.h"
 #include "binding/card.h"
+#include "binding/examples.h"
 #include "binding/lua_class.h"
 #include "binding/open.h"
 #include "binding/saved_file.h"
@@ -180,7 +181,8 @@ void bind_accuracy(lua_State* L) {
       .method("chart",
               {.options = {option<std::vector<Accuracy>>("with", "", "Other accuracy studies to draw beside this one"),
                            option<std::string>("title", "", "Above it")},
-               .does = "Error against run time, both logarithmic."},
+               .does = "Error against run time, both logarithmic.",
+                         .example = with_hose("study.accuracy(s, {segments = {10, 20, 40}}):chart{}:save(\"accuracy.svg\")")},
               [](const Accuracy& a, const Options& o) {
                 std::vector<Accuracy> all = o.maybe<std::vector<Accuracy>>("with").value_or(std::vector<Accuracy>());
                 all.insert(all.begin(), a);
@@ -193,7 +195,8 @@ void bind_accuracy(lua_State* L) {
 
 void bind_study(lua_State* L) {
   Class<Chart>(L, "A chart to be")
-      .method("save", {.takes = {"path"}, .options = timeout_schema(), .does = "Draws it into a .png or .svg; a missing folder is created."},
+      .method("save", {.takes = {"path"}, .options = timeout_schema(), .does = "Draws it into a .png or .svg; a missing folder is created.",
+                         .example = "study.chart{series = {{name = \"sag\", x = {1, 2, 3}, y = {1, 4, 9}}}}:save(\"sag.svg\")"},
               [](lua_State* state, const Chart& chart, const std::string& path, const Options& o) {
                 const ChartReport report = save_chart(chart, path, run_context(state, o));
                 return SavedFile{path, report.status, report.seconds};
@@ -212,7 +215,8 @@ void bind_study(lua_State* L) {
                 make_chart)
       .function("accuracy",
                 {.takes = {"scene"}, .options = accuracy_options(),
-                 .does = "Solves a scene with more and more segments: error, order and time of each."},
+                 .does = "Solves a scene with more and more segments: error, order and time of each.",
+                         .example = with_hose("print(study.accuracy(s, {segments = {10, 20, 40}}))")},
                 make_accuracy);
 }
 

@@ -25,9 +25,12 @@ Vec3 unit(const Vec3& v) {
   return (v / largest).normalized();  // scaled first: neither overflow nor underflow
 }
 
+/// Components that are only rounding noise beside the largest are shown as 0.
 std::string text(const Vec3& v) {
+  const double noise = 1e-14 * v.cwiseAbs().maxCoeff();
+  const auto shown = [noise](double x) { return std::abs(x) <= noise ? 0.0 : x; };
   char line[128];
-  std::snprintf(line, sizeof line, "vec(%.10g, %.10g, %.10g)", v.x(), v.y(), v.z());
+  std::snprintf(line, sizeof line, "vec(%.10g, %.10g, %.10g)", shown(v.x()), shown(v.y()), shown(v.z()));
   return line;
 }
 

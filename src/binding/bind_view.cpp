@@ -2,6 +2,7 @@
 #include "base/nearest_name.h"
 #include "binding/card.h"
 #include "binding/compose_picture.h"
+#include "binding/examples.h"
 #include "binding/lua_class.h"
 #include "binding/open.h"
 #include "binding/saved_file.h"
@@ -133,7 +134,8 @@ void bind_view(lua_State* L) {
       });
   Class<View>(L, "A picture to be")
       .method("save",
-              {.takes = {"path"}, .options = save_options(), .does = "Draws it into a .png; a missing folder is created."},
+              {.takes = {"path"}, .options = save_options(), .does = "Draws it into a .png; a missing folder is created.",
+                         .example = with_equilibrium("view.new{s, eq}:save(\"hose.png\", {size = {320, 240}, sheet = {\"iso\"}})")},
               save_view)
       .tostring([](const View& v) {
         return Card("view").row("rods", std::to_string(v.equilibrium ? v.equilibrium->rods.size() : 0))
@@ -142,7 +144,8 @@ void bind_view(lua_State* L) {
       });
   Module(L, "view", "Pictures")
       .function("new",
-                {.options = view_options(), .does = "A picture of a scene and its equilibrium; draw it with :save(path)."},
+                {.options = view_options(), .does = "A picture of a scene and its equilibrium; draw it with :save(path).",
+                         .example = with_equilibrium("print(view.new{s, eq, color = \"curvature\"})")},
                 make_view);
 }
 

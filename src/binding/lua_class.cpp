@@ -155,7 +155,7 @@ FunctionRecord& new_function(lua_State* L, std::string name, FunctionRecord::Cal
   record->options = std::move(def.options);
   record->returns = def.returns;
   record->text = def.does;
-  record->example = def.example;
+  record->example = std::move(def.example);
   auto& functions = context(L).registry->functions;
   functions.push_back(std::move(record));
   return *functions.back();
@@ -247,6 +247,10 @@ Module::Module(lua_State* L, const char* name, const char* text)
   lua_pushlightuserdata(L, &record_);
   lua_setfield(L, -2, "module");
   lua_setmetatable(L, -2);
+  luaL_getsubtable(L, LUA_REGISTRYINDEX, LUA_LOADED_TABLE);  // so that tracebacks name its functions, and require finds it
+  lua_pushvalue(L, -2);
+  lua_setfield(L, -2, name);
+  lua_pop(L, 1);
   lua_setglobal(L, name);
 }
 

@@ -35,7 +35,7 @@ struct Def {
   Schema options = {};
   const char* returns = "";  ///< annotation, where the C++ type does not say it
   const char* does = "";     ///< one line
-  const char* example = "";  ///< a chunk of Lua that runs
+  std::string example = {};  ///< a chunk of Lua that runs; after "--> " what it prints
 };
 
 namespace detail {
@@ -114,7 +114,7 @@ struct Signature<R (F::*)(A...) const> { using Type = R(A...); };
 /// Fills `record` for the C++ callable `f` and its parameter list.
 template <class F, class R, class... A>
 void describe(FunctionRecord& record, F f, std::vector<const char*> names, std::type_identity<R(A...)>) {
-  bool is_object = record.call == FunctionRecord::Call::method;
+  [[maybe_unused]] bool is_object = record.call == FunctionRecord::Call::method;
   ((Argument<std::decay_t<A>>::describe(record, names, is_object && !std::is_same_v<A, lua_State*>),
     is_object = is_object && std::is_same_v<A, lua_State*>), ...);
   if (!names.empty()) throw std::logic_error(record.name + ": more parameter names than parameters");

@@ -14,7 +14,7 @@ TEST_CASE("plain numbers have 4 significant digits") {
   CHECK(plain_number(-1.5) == "-1.5");
   CHECK(plain_number(3.14159265) == "3.142");
   CHECK(plain_number(123.456) == "123.5");
-  CHECK(plain_number(99999) == "99999");
+  CHECK(plain_number(99999) == "100000");
   CHECK(plain_number(123456) == "123500");
   CHECK(plain_number(0.00012345) == "0.0001234");
   CHECK(plain_number(0.000012345) == "1.234e-05");

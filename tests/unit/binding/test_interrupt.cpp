@@ -44,7 +44,7 @@ struct Interruptible : Script {
 
 TEST_CASE("the instruction after an interrupt raises the error") {
   Interruptible lua;
-  CHECK(lua("test.press()\nreached = true") == "code:1: interrupted");
+  CHECK(lua("test.press()\nreached = true") == "code:2: interrupted");
   lua.clear();
   CHECK(lua("return reached") == "nil");
 }
@@ -58,7 +58,7 @@ TEST_CASE("no pcall, coroutine or handler swallows an interrupt") {
       "while true do pcall(coroutine.wrap(function() pcall(coroutine.wrap(function() test.press() end)) end)) end",
       "local c = coroutine.create(function() test.press() coroutine.yield() end) coroutine.resume(c) while true do end",
       "while true do xpcall(test.press, function() while true do end end) end",
-      "setmetatable({}, {__close = test.press}) do local x <close> = setmetatable({}, {__close = test.press}) end while true do end",
+      "do local x <close> = setmetatable({}, {__close = function() test.press() end}) end while true do end",
       "table.sort({5, 4, 3, 2, 1}, function(a, b) test.press() return a < b end) while true do end");
   INFO(code);
   CHECK_THAT(lua(code), Contains("interrupted") || Contains("error in error handling") || Contains("stack overflow"));
@@ -105,7 +105,7 @@ TEST_CASE("coroutines behave as the library's own") {
   CHECK(lua("local c = coroutine.create(function() error({code = 5}) end) local ok, e = coroutine.resume(c) return ok, e.code") ==
         "false, 5");
   CHECK(lua("local f = coroutine.wrap(function() error('inside') end) return pcall(f)") == "false, code:1: inside");
-  CHECK(lua("coroutine.resume(5)") == "bad argument #1 to 'resume' (coroutine expected)");
+  CHECK(lua("coroutine.resume(5)") == "code:1: bad argument #1 to 'resume' (thread expected, got number)");
   CHECK(lua("local f = coroutine.wrap(function() end) f() f()") == "code:1: cannot resume dead coroutine");
   CHECK(lua("local c c = coroutine.create(function() return coroutine.status(c), coroutine.isyieldable() end)"
             " return coroutine.resume(c)") == "true, running, true");

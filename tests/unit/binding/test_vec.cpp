@@ -30,7 +30,7 @@ TEST_CASE("vec products, length and direction") {
 
 TEST_CASE("length and direction hold for the largest and the smallest numbers") {
   Script lua;
-  CHECK(lua("return vec(3e200, 4e200, 0):length() == 5e200") == "true");
+  CHECK(lua("return math.abs(vec(3e200, 4e200, 0):length() / 5e200 - 1) < 1e-15") == "true");
   CHECK(lua("return math.abs(vec(3e-200, 4e-200, 0):length() / 5e-200 - 1) < 1e-15") == "true");
   CHECK(lua("return (vec(3e200, 4e200, 0):unit() - {0.6, 0.8, 0}):length() < 1e-15") == "true");
   CHECK(lua("return (vec(3e-300, 4e-300, 0):unit() - {0.6, 0.8, 0}):length() < 1e-15") == "true");
@@ -68,7 +68,7 @@ TEST_CASE("vec errors say who, what was got and what was expected") {
   CHECK(lua("local a = vec(1, 2, 3):dot{1, 2, {}}") ==
         "code:1: vec:dot: argument 1 (other): got a table whose entry 3 is a table, expected a vec or {x, y, z} of finite numbers");
   CHECK(lua("local a = vec(1, 2, 3).length()") ==
-        "code:1: vec:length: got nothing as the object, expected a vec; is it called with ':'?");
+        "code:1: vec:length: got nothing as the object, expected a vec or {x, y, z} of finite numbers; is it called with ':'?");
   CHECK(lua("local a = vec(1, 2, 3) * vec(1, 2, 3)") ==
         "code:1: vec *: one operand must be a number; for two vectors there are v:dot(w) and v:cross(w)");
   CHECK(lua("local a = vec(1, 2, 3) + 1") ==

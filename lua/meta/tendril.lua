@@ -1,0 +1,668 @@
+---@meta tendril
+-- Written by `tendril --annotations`: do not edit. For editors that speak to the Lua language server.
+
+---A vector or point, immutable. Wherever a vec is expected a plain {x, y, z} will do
+---@class vec
+---@field x number First component
+---@field y number Second component
+---@field z number Third component
+---@operator add(vec|number[]): vec
+---@operator sub(vec|number[]): vec
+---@operator mul(number|vec|number[]): vec
+---@operator div(number): vec
+---@operator unm: vec
+local vec_methods = {}
+
+---Vector product.
+---@param other vec|number[]
+---@return vec
+function vec_methods:cross(other) end
+
+---Scalar product.
+---@param other vec|number[]
+---@return number
+function vec_methods:dot(other) end
+
+---Euclidean length.
+---@return number
+function vec_methods:length() end
+
+---The vector of length 1 in the same direction; an error for the zero vector.
+---@return vec
+function vec_methods:unit() end
+
+---A place and orientation of a rod's section: d3 is the rod's tangent, d1 and d2 its own axes
+---@class frame
+---@field along vec Direction of d3, a unit vector
+---@field at vec Place (m)
+---@field up vec Direction of d1, a unit vector
+local frame_methods = {}
+
+---@class (exact) tendril.frame.moved.options
+---@field by? vec|number[] Displacement in world axes (m)
+---@field turn? [vec|number[], number] {axis, angle}: turn about the world axis `axis` through the frame's own place (rad)
+
+---A new frame, displaced and turned.
+---@param options? tendril.frame.moved.options
+---@return frame
+function frame_methods:moved(options) end
+
+---An isotropic linear-elastic material
+---@class material
+---@field density number Mass per volume (kg/m^3)
+---@field shear number Shear modulus (Pa)
+---@field young number Young's modulus (Pa)
+local material_methods = {}
+
+---A cross-section: its size, stiffnesses and mass
+---@class section
+---@field EA number Stretch stiffness (N)
+---@field EI1 number Bending stiffness about d1 (N m^2)
+---@field EI2 number Bending stiffness about d2 (N m^2)
+---@field GA1 number Shear stiffness along d1 (N)
+---@field GA2 number Shear stiffness along d2 (N)
+---@field GJ number Twist stiffness (N m^2)
+---@field inner number Inner diameter (m)
+---@field mass number Mass per length (kg/m)
+---@field outer number Outer diameter (m)
+local section_methods = {}
+
+---The design of a cable or hose; it never changes
+---@class rod
+---@field length number Unstressed (m)
+---@field mass number All of it (kg)
+---@field section section Cross-section, the first when there are several
+---@field sections ({upto: number, [1]: section})[] List of {upto =, section} along the rod
+---@field segments integer Elements
+---@field shape curve? Unstressed shape; nil when straight
+local rod_methods = {}
+
+---The section at an arc length in m.
+---@param s number
+---@return section
+function rod_methods:section_at(s) end
+
+---@class (exact) tendril.rod.with.options
+---@field section? section|({upto: number, [1]: section})[] Cross-section, or a list of {upto = s, section} along the rod
+---@field length? number Unstressed length; that of the curve when there is a shape (m; > 0)
+---@field shape? curve Unstressed shape of a preformed rod; default straight
+---@field segments? integer Elements along the rod (1 ... 1000000)
+
+---A changed copy; this one stays as it is.
+---@param options? tendril.rod.with.options
+---@return rod
+function rod_methods:with(options) end
+
+---A curve in space by arc length; it never changes
+---@class curve
+---@field kind string "polyline", "pcc" or "spline"
+---@field length number Arc length (m)
+---@field points (vec)[] Those it was made from (m)
+local curve_methods = {}
+
+---Place and orientation at an arc length in m; along is the tangent.
+---@param s number
+---@return frame
+function curve_methods:at(s) end
+
+---The smallest bend radius in m, and where; 0 at a polyline's corner, math.huge when straight.
+---@return any
+function curve_methods:min_bend_radius() end
+
+---A rod in a scene: hold it, load it
+---@class placed_rod
+---@field design rod What it is
+---@field name string Its name in the scene
+local placed_rod_methods = {}
+
+---@class (exact) tendril.placed_rod.hold.options
+---@field position? boolean The place is held (default true)
+---@field orientation? boolean The orientation is held (default true)
+---@field turns? number Extra full turns about the tangent relative to the start (default 0)
+
+---Holds the section at "start", "finish" or an arc length in m. At a place that is held already the two holds must agree in what both fix; then the new one stands.
+---@param where string|number
+---@param frame frame
+---@param options? tendril.placed_rod.hold.options
+---@return placed_rod
+function placed_rod_methods:hold(where, frame, options) end
+
+---@class (exact) tendril.placed_rod.load.options
+---@field force? vec|number[] Dead force, world axes (N)
+---@field moment? vec|number[] Dead moment, world axes (N m)
+
+---Adds a dead load (constant in world axes) at "start", "finish" or an arc length in m.
+---@param where string|number
+---@param options? tendril.placed_rod.load.options
+---@return placed_rod
+function placed_rod_methods:load(where, options) end
+
+---Removes the hold at a place.
+---@param where string|number
+---@return placed_rod
+function placed_rod_methods:release(where) end
+
+---Removes all its loads.
+---@return placed_rod
+function placed_rod_methods:unload() end
+
+---One part of the model, used or left out
+---@class explained_item
+---@field name string What it is
+---@field subject string A rod's name, or 'scene'
+---@field used boolean False: left out
+---@field why string The reason
+local explained_item_methods = {}
+
+---What a solve does and what it leaves out
+---@class explanation
+---@field [integer] any
+---@operator len: integer
+local explanation_methods = {}
+
+---True when some rod or the scene uses this: "gravity", "contact" ...
+---@param name string
+---@return boolean
+function explanation_methods:uses(name) end
+
+---The world: gravity, obstacles and rods
+---@class scene
+---@field gravity vec Acceleration (m/s^2)
+---@field obstacles (string)[] Names of the obstacles
+---@field rods (string)[] Names of the rods
+local scene_methods = {}
+
+---@class (exact) tendril.scene.explain.options
+---@field element? "se3"|"staggered" Rod element: fourth order, or the second-order reference element (default "se3")
+---@field clamp? "half_cell"|"thesis" How the staggered element clamps an end: second order, or the thesis's first order (default "half_cell")
+---@field tolerance? number Largest last step: rotations in rad, positions over the length (1e-14 ... 0.01; default 1e-09)
+---@field error? boolean Also estimate the discretisation error (default false)
+
+---Which terms, contacts and solvers this scene uses, and what was left out.
+---@param options? tendril.scene.explain.options
+---@return explanation
+function scene_methods:explain(options) end
+
+---@class (exact) tendril.scene.obstacle.options
+---@field unit? "mm"|"cm"|"m"|"in" Length unit of the file or data; a file must be given one
+---@field pose? frame Where its own axes lie: d1, d2, d3 are its x, y, z; default: the world's
+---@field clearance? number Required gap to rods: judged in reports and pictures, no force comes from it (m; >= 0; default 0)
+---@field prefer? "neutral"|"near"|"avoid" Whether routes should keep near it or away (default "neutral")
+---@field clip? boolean Rods may be fastened to it (default true)
+
+---Adds something solid: a mesh file, {points =, triangles =}, or scene.box, .cylinder, .sphere, .plane.
+---@param name string
+---@param shape string|solid|{points: vec[], triangles: integer[][]}
+---@param options? tendril.scene.obstacle.options
+---@return scene
+function scene_methods:obstacle(name, shape, options) end
+
+---The placed rod of this name.
+---@param name string
+---@return placed_rod
+function scene_methods:placed(name) end
+
+---Removes a rod or an obstacle.
+---@param name string
+---@return scene
+function scene_methods:remove(name) end
+
+---@class (exact) tendril.scene.rod.options
+---@field from? frame Where the start is held, fully; default: free
+---@field to? frame Where the finish is held, fully; default: free
+
+---Places a rod; ends not given stay free.
+---@param name string
+---@param design rod
+---@param options? tendril.scene.rod.options
+---@return placed_rod
+function scene_methods:rod(name, design, options) end
+
+---@class (exact) tendril.scene.solve.options
+---@field element? "se3"|"staggered" Rod element: fourth order, or the second-order reference element (default "se3")
+---@field clamp? "half_cell"|"thesis" How the staggered element clamps an end: second order, or the thesis's first order (default "half_cell")
+---@field tolerance? number Largest last step: rotations in rad, positions over the length (1e-14 ... 0.01; default 1e-09)
+---@field error? boolean Also estimate the discretisation error (default false)
+---@field from? equilibrium Start from this equilibrium of a similar scene
+---@field timeout? number Give up after this time, with the best state so far; default: never (s; > 0 and <= 1000000000)
+
+---Static equilibrium of every rod. Look at .ok: what does not converge is a result, not an error.
+---@param options? tendril.scene.solve.options
+---@return equilibrium
+function scene_methods:solve(options) end
+
+---A box, sphere, cylinder or half-space to place with scene:obstacle
+---@class solid
+local solid_methods = {}
+
+---The smallest gap; computes as a number in m, negative where surfaces penetrate
+---@class clearance
+---@field at vec The place on the rod's centre line (m)
+---@field ok boolean At least the required clearance; where none is required, no penetration beyond that of contact
+---@field on string? Name of the obstacle, nil without one
+---@field point vec The closest point of the obstacle (m)
+---@field required number The clearance required of that obstacle (m)
+---@field s number Arc length of the place on the rod (m)
+---@field value number The gap as a plain number (m)
+---@operator add(number|clearance): number
+---@operator sub(number|clearance): number
+---@operator mul(number|clearance): number
+---@operator div(number|clearance): number
+---@operator unm: number
+local clearance_methods = {}
+
+---Estimated discretisation error of the centre line; computes as a number in m
+---@class error_estimate
+---@field order number Observed order of convergence
+---@field valid boolean False: too coarse to be trusted; see why
+---@field value number The estimate as a plain number (m)
+---@field why string Why it is not valid
+---@operator add(number|error_estimate): number
+---@operator sub(number|error_estimate): number
+---@operator mul(number|error_estimate): number
+---@operator div(number|error_estimate): number
+---@operator unm: number
+local error_estimate_methods = {}
+
+---Energy by term, all rods
+---@class energy
+---@field bend number Bending (J)
+---@field contact number Elastic energy of contact (J)
+---@field gravity number Weight times height above the world origin (J)
+---@field load number Potential of the dead loads (J)
+---@field shear number Shear (J)
+---@field stretch number Stretch (J)
+---@field total number Sum of all (J)
+---@field twist number Twist (J)
+local energy_methods = {}
+
+---A force that the surroundings exert on a rod
+---@class contact
+---@field at vec Place on the centre line (m)
+---@field force vec On the rod, world axes (N)
+---@field gap number Between the surfaces; negative: penetration (m)
+---@field on string Name of the obstacle
+---@field rod string Name of the rod
+---@field s number Arc length (m)
+local contact_methods = {}
+
+---One rod in equilibrium
+---@class solved_rod
+---@field arc_lengths (number)[] Of the vertices, unstressed (m)
+---@field bend_radius (number)[] At the vertices (m)
+---@field clearance clearance Smallest gap to any obstacle (m)
+---@field contacts (contact)[] Forces of the surroundings on it
+---@field design rod What it is
+---@field frames (frame)[] Sections at the vertices
+---@field length number Of the deformed centre line (m)
+---@field max_strain number The largest
+---@field max_tension number The largest; negative: compression everywhere (N)
+---@field min_bend_radius number The smallest; math.huge when straight (m)
+---@field name string Its name in the scene
+---@field ok boolean Solved
+---@field points (vec)[] Vertices of the centre line (m)
+---@field status string How the solve ended
+---@field tension (number)[] Of each segment; negative: compression (N)
+---@field twist (number)[] Of each segment (rad/m)
+local solved_rod_methods = {}
+
+---The section's frame at an arc length in m.
+---@param s number
+---@return frame
+function solved_rod_methods:at(s) end
+
+---A scene in static equilibrium, as it was when it was solved
+---@class equilibrium
+---@field contacts (contact)[] Forces of the surroundings on the rods
+---@field deepest_penetration number 0 without contact (m)
+---@field energy energy By term (J)
+---@field error error_estimate? Estimated discretisation error; nil unless solved with error = true (m)
+---@field iterations integer Newton steps, all rods
+---@field message string What there is to say about it
+---@field ok boolean Every rod is solved
+---@field residual number Largest unbalanced force, or moment over length (N)
+---@field rods (string)[] Names of the rods
+---@field seconds number Time to solve, without building trees (s)
+---@field seconds_for_trees number Time to build the obstacles' trees, 0 when they stood already (s)
+---@field stable boolean No negative eigenvalue
+---@field status string "solved", "stalled", "cancelled", "timeout"
+local equilibrium_methods = {}
+
+---@class (exact) tendril.equilibrium.clearance.options
+---@field from? string The rod; may be left out when there is only one
+---@field to? string The obstacle; default: the nearest of all
+
+---The smallest gap between a rod's surface and an obstacle; computes as a number in m.
+---@param options? tendril.equilibrium.clearance.options
+---@return clearance
+function equilibrium_methods:clearance(options) end
+
+---Force (N, world axes) of the support on the rod at a hold.
+---@param name string
+---@param where string|number
+---@return vec
+function equilibrium_methods:force(name, where) end
+
+---Moment (N m, world axes, about the centre line) of the support on the rod at a hold.
+---@param name string
+---@param where string|number
+---@return vec
+function equilibrium_methods:moment(name, where) end
+
+---One rod in equilibrium.
+---@param name string
+---@return solved_rod
+function equilibrium_methods:rod(name) end
+
+---A file that was saved
+---@class saved_file
+---@field ok boolean It was written
+---@field path string Where
+---@field seconds number Time it took (s)
+---@field status string "saved", "cancelled" or "timeout"
+local saved_file_methods = {}
+
+---A picture to be
+---@class view
+local view_methods = {}
+
+---@class (exact) tendril.view.save.options
+---@field size? (integer)[] {width, height}; default {1600, 1200} (pixels)
+---@field sheet? (string)[] Views in rows of two: "iso", "front", "top", "side", "card"; default iso, front, top and card
+---@field fit? string|(string)[] Rod or obstacle, or a list, that fills each view; default: the rods
+---@field timeout? number Give up after this time, with the best state so far; default: never (s; > 0 and <= 1000000000)
+
+---Draws it into a .png; a missing folder is created.
+---@param path string
+---@param options? tendril.view.save.options
+---@return saved_file
+function view_methods:save(path, options) end
+
+---A chart to be
+---@class chart
+local chart_methods = {}
+
+---@class (exact) tendril.chart.save.options
+---@field timeout? number Give up after this time, with the best state so far; default: never (s; > 0 and <= 1000000000)
+
+---Draws it into a .png or .svg; a missing folder is created.
+---@param path string
+---@param options? tendril.chart.save.options
+---@return saved_file
+function chart_methods:save(path, options) end
+
+---One number of segments in an accuracy study
+---@class accuracy_row
+---@field error number Against the reference (m)
+---@field estimate number The solver's own estimate; NaN unless asked for and valid (m)
+---@field iterations integer Newton steps
+---@field order number Observed against the row before; NaN in the first
+---@field seconds number Median of repeated cold solves (s)
+---@field segments integer Of every rod
+---@field status string How the solve ended
+local accuracy_row_methods = {}
+
+---Error against run time
+---@class accuracy
+---@field element string Which element
+---@field message string Why it is not complete
+---@field ok boolean The study is complete
+---@field reference_segments integer Of the reference solution
+---@field reference_uncertainty number What is not known of the reference (m)
+---@field rows (accuracy_row)[] One for each number of segments
+---@field status string How it ended
+local accuracy_methods = {}
+
+---@class (exact) tendril.accuracy.chart.options
+---@field with? (accuracy)[] Other accuracy studies to draw beside this one
+---@field title? string Above it
+
+---Error against run time, both logarithmic.
+---@param options? tendril.accuracy.chart.options
+---@return chart
+function accuracy_methods:chart(options) end
+
+---A vector from its components.
+---@param x number
+---@param y number
+---@param z number
+---@return vec
+function vec(x, y, z) end
+
+---@class (exact) tendril.frame.options
+---@field at vec|number[] Place (m)
+---@field along vec|number[] Direction of d3, the rod's tangent there; any length
+---@field up? vec|number[] Direction that d1 leans to, made normal to `along`; without it z, or x for a vertical `along`
+
+---A place and orientation of a section.
+---@param options tendril.frame.options
+---@return frame
+function frame(options) end
+
+---Says what a function, object, module or name is.
+---@param subject? any
+function help(subject) end
+
+---Calls a function: the seconds it took, then what it returned.
+---@param run function
+---@return number, any
+function time(run) end
+
+---Factors to SI: 60*units.mm is 0.06 (m)
+units = {}
+
+---metre (m)
+---@type number
+units.m = 0
+
+---centimetre (m)
+---@type number
+units.cm = 0
+
+---millimetre (m)
+---@type number
+units.mm = 0
+
+---radian (rad)
+---@type number
+units.rad = 0
+
+---degree (rad)
+---@type number
+units.deg = 0
+
+---newton (N)
+---@type number
+units.N = 0
+
+---kilonewton (N)
+---@type number
+units.kN = 0
+
+---pascal (Pa)
+---@type number
+units.Pa = 0
+
+---kilopascal (Pa)
+---@type number
+units.kPa = 0
+
+---megapascal (Pa)
+---@type number
+units.MPa = 0
+
+---gigapascal (Pa)
+---@type number
+units.GPa = 0
+
+---kilogram (kg)
+---@type number
+units.kg = 0
+
+---gram (kg)
+---@type number
+units.g = 0
+
+---What a cable or hose is
+rod = {}
+
+---@class (exact) tendril.rod.material.options
+---@field young number Young's modulus (Pa; > 0)
+---@field poisson? number Poisson's ratio; give this or shear (> -1 and <= 0.5)
+---@field shear? number Shear modulus; give this or poisson (Pa; > 0)
+---@field density number Mass per volume (kg/m^3; >= 0)
+
+---An isotropic linear-elastic material.
+---@param options tendril.rod.material.options
+---@return material
+function rod.material(options) end
+
+---@class (exact) tendril.rod.section.options
+---@field outer number Outer diameter (m; > 0)
+---@field inner? number Inner diameter; 0: solid (m; >= 0; default 0)
+---@field material? material What it is made of; the stiffnesses and the mass follow from it
+---@field EA? number Measured stretch stiffness (N; > 0)
+---@field GA? number|(number)[] Measured shear stiffness, or {along d1, along d2} (N)
+---@field EI? number|(number)[] Measured bending stiffness, or {about d1, about d2} (N m^2)
+---@field GJ? number Measured twist stiffness (N m^2; > 0)
+---@field mass? number Measured mass per length (kg/m; >= 0)
+
+---A cross-section, from a material or from measured stiffnesses.
+---@param options tendril.rod.section.options
+---@return section
+function rod.section(options) end
+
+---@class (exact) tendril.rod.new.options
+---@field section section|({upto: number, [1]: section})[] Cross-section, or a list of {upto = s, section} along the rod
+---@field length? number Unstressed length; that of the curve when there is a shape (m; > 0)
+---@field shape? curve Unstressed shape of a preformed rod; default straight
+---@field segments? integer Elements along the rod (1 ... 1000000; default 40)
+
+---A rod design: straight, or preformed by a shape.
+---@param options tendril.rod.new.options
+---@return rod
+function rod.new(options) end
+
+---Shapes in space
+curve = {}
+
+---@class (exact) tendril.curve.polyline.options
+---@field [integer] vec|number[] Two or more points, m
+
+---Straight from point to point.
+---@param options? tendril.curve.polyline.options
+---@return curve
+function curve.polyline(options) end
+
+---@class (exact) tendril.curve.pcc.options
+---@field points (vec|number[])[] Ends and corners (m)
+---@field radius number|(number)[] Bend radius, or one for each inner point (m)
+
+---Straights with each corner rounded by an arc: piecewise constant curvature.
+---@param options tendril.curve.pcc.options
+---@return curve
+function curve.pcc(options) end
+
+---@class (exact) tendril.curve.spline.options
+---@field [integer] vec|number[] Two or more points to pass through, m
+---@field start? vec|number[] Direction at the first point; default: no curvature there
+---@field finish? vec|number[] Direction at the last point; default: no curvature there
+
+---The cubic spline through points, with continuous curvature.
+---@param options? tendril.curve.spline.options
+---@return curve
+function curve.spline(options) end
+
+---The world that rods live in
+scene = {}
+
+---@class (exact) tendril.scene.new.options
+---@field gravity? vec|number[] Acceleration in world axes; default or zero: the term is left out (m/s^2)
+
+---An empty world.
+---@param options? tendril.scene.new.options
+---@return scene
+function scene.new(options) end
+
+---@class (exact) tendril.scene.box.options
+---@field size vec|number[] Edge lengths along its x, y, z; its middle is the pose's place (m)
+
+---A box.
+---@param options tendril.scene.box.options
+---@return solid
+function scene.box(options) end
+
+---@class (exact) tendril.scene.sphere.options
+---@field radius number Radius; its middle is the pose's place (m; > 0)
+
+---A sphere.
+---@param options tendril.scene.sphere.options
+---@return solid
+function scene.sphere(options) end
+
+---@class (exact) tendril.scene.cylinder.options
+---@field radius number Radius (m; > 0)
+---@field length number Length along its z; its middle is the pose's place (m; > 0)
+
+---A cylinder with flat ends.
+---@param options tendril.scene.cylinder.options
+---@return solid
+function scene.cylinder(options) end
+
+---@class (exact) tendril.scene.plane.options
+
+---Everything below a plane: solid where its own z is less than 0. `pose = frame{at =, along = normal}` places it.
+---@param options? tendril.scene.plane.options
+---@return solid
+function scene.plane(options) end
+
+---Pictures
+view = {}
+
+---@class (exact) tendril.view.new.options
+---@field [integer] scene|equilibrium The scene, its equilibrium, or both
+---@field color? string|(number)[] What the rods' colour says: "clearance", "curvature", "tension", "twist", or {r, g, b} from 0 to 1; default: clearance when there are obstacles, else curvature
+---@field ghost? (string)[] Obstacles to see through, the others are solid; default: all
+---@field title? string On the card
+
+---A picture of a scene and its equilibrium; draw it with :save(path).
+---@param options? tendril.view.new.options
+---@return view
+function view.new(options) end
+
+---Charts, and what a result costs
+study = {}
+
+---@class (exact) tendril.study.chart.options
+---@field kind? "lines"|"scatter"|"bars"|"histogram" What it draws (default "lines")
+---@field series ({name: string, x: number[], y: number[]})[] List of {name =, x =, y =}
+---@field title? string Above it
+---@field x_label? string Below it, with the unit: "length [m]"
+---@field y_label? string Beside it, with the unit
+---@field log_x? boolean Logarithmic (default false)
+---@field log_y? boolean Logarithmic (default false)
+---@field markers? boolean Mark the points of lines (default true)
+---@field categories? (string)[] Names below the bars
+---@field references? ({at: number, across: string?, label: string?})[] Dashed lines: list of {at =, across = "horizontal"|"vertical", label =}
+---@field bins? integer Of a histogram; 0: chosen from the data (0 ... 10000; default 0)
+---@field size? (integer)[] {width, height}; default {1200, 800} (pixels)
+
+---A chart of lines, points, bars or a histogram; draw it with :save(path).
+---@param options tendril.study.chart.options
+---@return chart
+function study.chart(options) end
+
+---@class (exact) tendril.study.accuracy.options
+---@field segments? (integer)[] Numbers of segments of every rod; default {10, 20, 40, 80, 160, 320}
+---@field element? "se3"|"staggered" Rod element: fourth order, or the second-order reference element (default "se3")
+---@field clamp? "half_cell"|"thesis" How the staggered element clamps an end: second order, or the thesis's first order (default "half_cell")
+---@field tolerance? number Largest last step: rotations in rad, positions over the length (1e-14 ... 0.01; default 1e-09)
+---@field error? boolean Also estimate the discretisation error (default false)
+---@field timeout? number Give up after this time, with the best state so far; default: never (s; > 0 and <= 1000000000)
+
+---Solves a scene with more and more segments: error, order and time of each.
+---@param scene scene
+---@param options? tendril.study.accuracy.options
+---@return accuracy
+function study.accuracy(scene, options) end
+
