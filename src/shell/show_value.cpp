@@ -12,8 +12,10 @@ constexpr int most_entries = 12;
 
 /// The value's text as an entry of a table: strings quoted, tables within only counted.
 std::string entry_text(lua_State* L, int index) {
-  if (lua_type(L, index) == LUA_TTABLE && !luaL_getmetafield(L, index, "__tostring")) return "{...}";
-  if (lua_type(L, index) == LUA_TTABLE) lua_pop(L, 1);
+  if (lua_type(L, index) == LUA_TTABLE) {
+    if (!luaL_getmetafield(L, index, "__tostring")) return "{...}";
+    lua_pop(L, 1);
+  }
   const bool quoted = lua_type(L, index) == LUA_TSTRING;
   std::size_t size = 0;
   const char* text = luaL_tolstring(L, index, &size);

@@ -76,7 +76,7 @@ Scan scan(std::string_view text) {
 std::vector<Link> chain_before(std::string_view text, const Scan& scan, std::size_t end) {
   std::vector<Link> links;
   for (std::size_t i = end;;) {
-    while (i > 0 && text[i - 1] == ' ' && (i == end || text[i] == '{' || text[i] == '(')) --i;  // f {x}, f (x)
+    while (i > 0 && text[i - 1] == ' ' && (i == end || !is_name_character(text[i]))) --i;  // f {x}, f 'x'
     if (const auto group = scan.group_start.find(i); group != scan.group_start.end()) {
       i = group->second;
       links.push_back({text[i] == '[' && long_bracket(text, i) < 0 ? Link::Kind::index : Link::Kind::call, {}});
