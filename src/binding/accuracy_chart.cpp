@@ -1,5 +1,6 @@
 #include "binding/accuracy_chart.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "binding/card.h"
@@ -20,7 +21,8 @@ std::string accuracy_table(const Accuracy& accuracy) {
   std::string text = "accuracy of element " + accuracy.element() + "\n" + table_text(head, rows);
   if (accuracy.status != Status::solved) return text + "\n" + name_of(accuracy.status) + ": " + accuracy.message;
   return text + "\nreference: " + std::to_string(accuracy.reference_segments) + " segments, known to " +
-         quantity(accuracy.reference_uncertainty, "m");
+         quantity(accuracy.reference_uncertainty, "m") +
+         (accuracy.unresolved() ? "; errors near or below that are not resolved" : "");
 }
 
 Chart accuracy_chart(const std::vector<Accuracy>& studies, const std::string& title) {
@@ -41,6 +43,10 @@ Chart accuracy_chart(const std::vector<Accuracy>& studies, const std::string& ti
     }
     chart.series.push_back(std::move(series));
   }
+  double limit = 0;
+  for (const Accuracy& study : studies)
+    if (study.unresolved()) limit = std::max(limit, study.reference_uncertainty);
+  if (limit > 0) chart.references.push_back({ChartReference::Across::horizontal, limit, "not resolved below"});
   check_chart(chart);
   return chart;
 }

@@ -80,7 +80,9 @@ Reference make_reference(const Scene& scene, const Surroundings* surroundings, i
   }
   const double before = largest_distance(first, reference.coarse), last = largest_distance(reference.coarse, reference.fine);
   reference.extrapolated = last > 0 && before / last > 12 && before / last < 20;
-  reference.uncertainty = reference.extrapolated ? last / 15 : last;
+  // A sequence that does not fall (contact that slides a little) is known no better than its largest change.
+  const bool falls = last < 0.5 * before || before == 0;
+  reference.uncertainty = reference.extrapolated ? last / 15 : falls ? last : std::max(before, last);
   result.reference_segments = 4 * n;
   result.extrapolated = reference.extrapolated;
   result.reference_uncertainty = reference.uncertainty;
@@ -136,6 +138,10 @@ void check(const Scene& scene, const AccuracyOptions& options) {
 }
 
 }  // namespace
+
+bool Accuracy::unresolved() const {
+  return std::any_of(rows.begin(), rows.end(), [&](const AccuracyRow& row) { return row.error < 2 * reference_uncertainty; });
+}
 
 std::string Accuracy::element() const {
   if (solve.element == Element::se3) return "se3";

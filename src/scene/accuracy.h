@@ -30,9 +30,12 @@ struct Accuracy {
   SolveOptions solve;                ///< as they were asked for
   int reference_segments = 0;        ///< se3 element; with Richardson extrapolation where its order is the fourth
   bool extrapolated = false;
-  double reference_uncertainty = 0;  ///< m, what the last refinement of the reference still changed
+  double reference_uncertainty = 0;  ///< m, what the last refinement of the reference still changed; errors below are noise
   Status status = Status::solved;    ///< not solved: the reference could not be had, or the time was up
   std::string message;
+
+  /// True when an error in the rows is not well above what is known of the reference.
+  bool unresolved() const;
 
   /// "se3", "staggered" or "staggered, thesis's clamp".
   std::string element() const;

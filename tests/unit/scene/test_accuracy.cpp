@@ -58,3 +58,12 @@ TEST_CASE("an accuracy study rejects what it cannot do and stops when told", "[s
   CHECK(stopped.status == Status::cancelled);
   CHECK_THAT(stopped.message, Contains("reference"));
 }
+
+TEST_CASE("errors that the reference cannot resolve are told", "[scene][accuracy]") {
+  Accuracy accuracy;
+  accuracy.reference_uncertainty = 1e-6;
+  accuracy.rows = {{.segments = 10, .error = 1e-4}, {.segments = 20, .error = 1e-5}};
+  CHECK_FALSE(accuracy.unresolved());
+  accuracy.rows.push_back({.segments = 40, .error = 1.5e-6});
+  CHECK(accuracy.unresolved());
+}
