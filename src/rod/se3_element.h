@@ -263,13 +263,35 @@ inline M3<T> second_derivative_of_v(const V3<T>& phi, const V3<T>& d, const V3<T
   return f;
 }
 
-/// Energy, gradient, second derivative and wrench rate. `stress`: the wrench of the geometric terms.
+/// The second-order element's gradient with the fourth-order correction taken from a wrench w that is given: a change of
+/// the reference rates by q ad_eps u and a force q M u. With w the segment's own wrench this is the fourth-order gradient.
+template <class T>
+inline SegmentGradient<T> se3_deferred_gradient(const Se3Segment<T>& s, const T& q, const detail::Se3Strain<T>& x,
+                                                const Wrench<T>& w) {
+  Wrench<T> u;
+  const Wrench<T> with_w = detail::force_on_xi(s, q, x, w, u);
+  Se3Segment<T> shifted = s;
+  shifted.rate_v = s.rate_v + q * (cross(x.rate_phi, u.n) + cross(x.rate_v, u.m));
+  shifted.rate_phi = s.rate_phi + q * cross(x.rate_phi, u.m);
+  SegmentGradient<T> out = se3_gradient_of(shifted, x);
+  const V3<T> n = with_w.n - w.n;
+  const V3<T> f = transposed_times(x.a, n);
+  const V3<T> m = transposed_times(x.g, n) + (with_w.m - w.m);
+  out.force = out.force + x.axes * f;
+  out.theta_a = out.theta_a - transposed_times(x.a, m) - cross(x.d, f);
+  out.theta_b = out.theta_b + x.a * m;
+  return out;
+}
+
+/// Energy, gradient, second derivative and wrench rate. `stress`: the wrench of the geometric terms. `deferred`: null, or
+/// the q of a correction that is taken from `stress` and not differentiated; s.q is then zero and the energy is not used.
 template <class T>
 inline SegmentGradient<T> se3_element(const Se3Segment<T>& s, const Se3Ends<T>& ends, const Wrench<T>* stress,
-                                      SegmentHessian<T>& out, WrenchRate<T>& rate) {
+                                      SegmentHessian<T>& out, WrenchRate<T>& rate, const T* deferred = nullptr) {
   detail::Se3Strain<T> x(s, ends);
   x.g = jacobian_derivative(x.phi, x.d, x.k, 1);
-  const SegmentGradient<T> gradient = se3_gradient_of(s, x);
+  const SegmentGradient<T> gradient =
+      deferred ? se3_deferred_gradient(s, *deferred, x, *stress) : se3_gradient_of(s, x);
   const Wrench<T> w = stress ? *stress : gradient.wrench;
   Wrench<T> u;
   const Wrench<T> g = detail::force_on_xi(s, s.q, x, w, u);

@@ -26,7 +26,7 @@ void Newton::assemble(const RodState& state) {
   };
   all_terms();
   if (stress_ != Stress::predicted || system_.false_stress() <= rough_stress) return;
-  stress_ = Stress::rough;
+  stress_ = Stress::deferred;
   all_terms();
 }
 

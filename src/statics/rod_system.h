@@ -24,7 +24,10 @@ struct RodState {
 /// Which wrench the geometric terms of the second derivative use: none, the predicted one, or the actual one. `rough` is
 /// the predicted one far from the solution: the element then leaves out its fourth-order correction, whose softer shear
 /// would let a wrong wrench make the matrix indefinite.
-enum class Stress { zero, rough, predicted, actual };
+///
+/// `deferred`: as rough, but with that correction taken from the predicted wrench: what is solved is then right to fourth
+/// order while the actual wrench is still false.
+enum class Stress { zero, rough, deferred, predicted, actual };
 
 /// Held unknowns of a node, one bit each in the order of block_system.h.
 using HeldMask = std::uint8_t;

@@ -165,9 +165,12 @@ double Se3System::assemble_elements(const RodState& state, Stress stress, BlockS
     const Wrench<Pack>* w =
         stress == Stress::zero ? &nothing : stress == Stress::actual ? nullptr : &predicted_[p];
     const bool corrected = fourth_order_ && (stress == Stress::predicted || stress == Stress::actual);
-    segments_[p].q = corrected ? segments_[p].h * segments_[p].h * (1.0 / 12) : Pack{};
+    const Pack q = segments_[p].h * segments_[p].h * (1.0 / 12);
+    segments_[p].q = corrected ? q : Pack{};
     SegmentHessian<Pack> h;
-    const SegmentGradient<Pack> g = se3_element(segments_[p], ends(state, p), w, h, rates_[p]);
+    const bool deferred = fourth_order_ && stress == Stress::deferred;
+    const SegmentGradient<Pack> g =
+        se3_element(segments_[p], ends(state, p), w, h, rates_[p], deferred ? &q : nullptr);
     actual_[p] = g.wrench;
     geometric_[p] = w ? *w : g.wrench;
     for (int l = 0; l < lanes_in(p); ++l) {
