@@ -63,8 +63,10 @@ double own_order(const SolveOptions& options) {
 }
 
 /// Below this order the extrapolation is not to be trusted. The fourth-order element leaves a small second-order error
-/// under distributed load (the weight's effect on the stretch), which shows on fine meshes.
-double lowest_order(const SolveOptions& options) {
+/// under distributed load (the weight's effect on the stretch), which shows on fine meshes. Contact forces jump from
+/// point to point, which leaves about first order.
+double lowest_order(const RodProblem& problem, const SolveOptions& options) {
+  if (problem.surroundings) return 0.5;
   return options.element == Element::se3 ? 1.8 : 0.6 * own_order(options) - 0.2;
 }
 
@@ -77,8 +79,10 @@ ErrorEstimate estimate_error(const RodProblem& problem, const SolveOptions& opti
   plain.error = false;
   plain.tolerance = std::min(1e-12, options.tolerance);  // differences of meshes must not drown in unfinished iterations
   RodSolver twice(problem, plain, problem.rod.segments, 2), four_times(problem, plain, problem.rod.segments, 4);
-  const Equilibrium finer = twice.solve(context, &solution);
-  const Equilibrium finest = four_times.solve(context, finer.ok() ? &finer : &solution);
+  // In contact a warm start would carry the contact forces over, and with them the error that is looked for.
+  const bool warm = !problem.surroundings;
+  const Equilibrium finer = twice.solve(context, warm ? &solution : nullptr);
+  const Equilibrium finest = four_times.solve(context, !warm ? nullptr : finer.ok() ? &finer : &solution);
   if (!finer.ok() || !finest.ok()) {
     estimate.why = "the finer meshes were not solved: " + (finer.ok() ? finest : finer).message;
     estimate.value = solution.s.back();
@@ -97,9 +101,9 @@ ErrorEstimate estimate_error(const RodProblem& problem, const SolveOptions& opti
   }
   estimate.order = std::log2(first / std::max(second, 1e-300));
   // first = e (1 - 2^-p), second = e 2^-p (1 - 2^-p): their sum plus what is beyond the finest mesh.
-  const double p = std::clamp(estimate.order, 0.5 * expected, expected + 2);
+  const double p = std::clamp(estimate.order, std::min(0.5 * expected, lowest_order(problem, options)), expected + 2);
   estimate.value = first + second / (1 - std::exp2(-p));
-  estimate.valid = (estimate.order > lowest_order(options) && estimate.order < 1.4 * expected + 0.2) || second < rounding;
+  estimate.valid = (estimate.order > lowest_order(problem, options) && estimate.order < 1.4 * expected + 0.2) || second < rounding;
   if (!estimate.valid) {
     char text[160];
     std::snprintf(text, sizeof text,
