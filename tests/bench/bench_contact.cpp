@@ -1,7 +1,7 @@
 // Contact: 500 random rods a family, as a table; then a hose at rest on a large terrain.
 //
-//   bench_contact                     the benchmarks
-//   bench_contact table [cases [seed]]  the table: solved, passes, microseconds, overlap, rods that passed a surface
+//   bench_contact                                the benchmarks
+//   bench_contact table [cases [seed [family]]]  the table: solved, passes, microseconds, overlap, rods that passed a surface
 //
 // Times of the table leave out the making of the obstacle and its tree.
 
@@ -13,6 +13,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <string>
 
 #include "property/contact_surroundings.h"
 #include "statics/solve.h"
@@ -69,9 +70,10 @@ Row run_family(const ContactFamily& family, int cases, std::uint64_t seed) {
   return row;
 }
 
-void print_table(int cases, std::uint64_t seed) {
+void print_table(int cases, std::uint64_t seed, const std::string& only) {
   std::printf("%-22s %9s %13s %8s %13s %8s %8s %7s\n", "family", "solved", "passes 50/90", "us", "warm 50/90", "us", "overlap", "through");
   for (const ContactFamily& family : contact_families(330)) {
+    if (!only.empty() && family.name.find(only) == std::string::npos) continue;
     const Row row = run_family(family, cases, seed);
     std::printf("%-22s %4d/%4d %6.0f /%5.0f %8.0f %6.0f /%5.0f %8.0f %8.0e %7d\n", family.name.c_str(), row.solved, cases,
                 at_share(row.passes, 0.5), at_share(row.passes, 0.9), at_share(row.cold, 0.5), at_share(row.warm_passes, 0.5),
@@ -152,7 +154,7 @@ BENCHMARK(same_hose_without_obstacles)->Unit(benchmark::kMicrosecond);
 
 int main(int argc, char** argv) {
   if (argc > 1 && std::strcmp(argv[1], "table") == 0) {
-    print_table(argc > 2 ? std::atoi(argv[2]) : 500, argc > 3 ? std::strtoull(argv[3], nullptr, 10) : 1);
+    print_table(argc > 2 ? std::atoi(argv[2]) : 500, argc > 3 ? std::strtoull(argv[3], nullptr, 10) : 1, argc > 4 ? argv[4] : "");
     return 0;
   }
   benchmark::Initialize(&argc, argv);
