@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "view/histogram.h"
+#include "view/legend_corner.h"
 
 namespace tendril {
 namespace {
@@ -137,6 +138,23 @@ void add_plot(const std::vector<std::string>& parts, std::string& text) {
   text += "\n";
 }
 
+/// Moves the legend of lines and points to where it hides least.
+void add_legend(const Chart& chart, const Drawable& data, const Span& x, const Span& y, std::string& text) {
+  const auto share = [](const Span& span, bool log, double v) {
+    const double low = log ? std::log10(span.low) : span.low, high = log ? std::log10(span.high) : span.high;
+    return high > low ? 0.05 + 0.9 * ((log ? std::log10(v) : v) - low) / (high - low) : 0.5;  // the axes' spare room
+  };
+  std::vector<ChartTrace> traces;
+  int rows = 0;
+  for (const Drawable::Series& series : data.series) {
+    ChartTrace trace;
+    for (const auto& p : series.points) trace.push_back({share(x, chart.log_x, p[0]), share(y, chart.log_y, p[1])});
+    traces.push_back(std::move(trace));
+    rows += !series.points.empty() && !series.name.empty();
+  }
+  text += std::string("set key ") + legend_corner(traces, rows, chart.kind == ChartKind::lines) + "\n";
+}
+
 std::string title_of(const std::string& name) { return name.empty() ? "notitle" : "title " + gnuplot_quoted(name); }
 
 void add_points(const Chart& chart, const Drawable& data, std::string& text) {
@@ -163,6 +181,7 @@ void add_points(const Chart& chart, const Drawable& data, std::string& text) {
     if (!log || line.at > 0) (level ? y : x).take(line.at);
   }
   text += range_text("x", x.low, x.high, chart.log_x, false) + range_text("y", y.low, y.high, chart.log_y, false);
+  add_legend(chart, data, x, y, text);
   add_references(chart, text);
   add_plot(parts, text);
 }
