@@ -32,6 +32,7 @@ struct Context {
 
   std::atomic<lua_State*> running{nullptr};  ///< the coroutine that runs now: where an interrupt must strike
   bool grace_given = false;  ///< one interrupted computation may still hand its result to the script
+  std::string struck_at;     ///< "file.lua:12: interrupted": where Lua code was struck first; "" when it was not
   bool cancel_polled = false;  ///< the bound function that runs now was given the cancel flag
 
   std::unique_ptr<Registry> registry;
@@ -46,7 +47,7 @@ Context& context(lua_State* L);
 /// For a long computation started from Lua: cancelled by Ctrl-C, with the shell's progress.
 RunContext run_context(lua_State* L);
 
-/// Call from the signal handler after the cancel flag is set: the running Lua code raises "interrupted" at its next
+/// Call from the signal handler after the cancel flag is set: the running Lua code raises an error at its next
 /// instruction, and again after every pcall that swallows it, until `rearm` is called. Async-signal-safe.
 void interrupt(Context& context) noexcept;
 

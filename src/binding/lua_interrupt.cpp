@@ -1,5 +1,9 @@
 // Ctrl-C in Lua code. The signal handler arms a count hook on the coroutine that runs; the hook raises an error, stays
 // armed so that no pcall loop swallows it, and is handed from a coroutine to the one that resumed it.
+//
+// The error is raised as Lua's memory error, the one that calls no message handler: a handler given to xpcall would run
+// inside the hook, where no further hook can end it. Nobody sees its text: before the next instruction the hook strikes
+// again, and at the end the shell tells `Context::struck_at`.
 #include "binding/lua_context.h"
 
 namespace tendril::lua {
@@ -11,9 +15,12 @@ void strike(lua_State* L, lua_Debug*) {
     return;
   }
   lua_sethook(L, strike, LUA_MASKCOUNT, 1);
-  luaL_where(L, 0);  // a hook is no level of the stack: 0 is the function it struck
-  lua_pushliteral(L, "interrupted");
-  lua_concat(L, 2);
+  Context& c = context(L);
+  if (c.struck_at.empty()) {
+    luaL_where(L, 0);  // a hook is no level of the stack: 0 is the function it struck
+    c.struck_at = lua_tostring(L, -1) + std::string("interrupted");
+  }
+  lua_pushliteral(L, "not enough memory");
   lua_error(L);
 }
 
@@ -78,6 +85,7 @@ void rearm(lua_State* L) {
   lua_sethook(L, nullptr, 0, 0);
   Context& c = context(L);
   c.grace_given = false;
+  c.struck_at.clear();
   c.running = L;
 }
 

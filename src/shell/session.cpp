@@ -81,7 +81,9 @@ bool Session::call(int arguments, int results) {
   if (status == LUA_OK && !lua::interrupted(L_)) return true;
   if (lua::interrupted(L_)) {
     was_interrupted_ = true;
-    if (status == LUA_OK) return true;  // the computation gave its best result so far
+    tell_interrupt();
+    if (status != LUA_OK) lua_pop(L_, 1);
+    return status == LUA_OK;  // then the computation gave its best result so far
   }
   tell_error();
   return false;
@@ -89,10 +91,13 @@ bool Session::call(int arguments, int results) {
 
 void Session::tell_error() {
   const char* text = lua_tostring(L_, -1);
-  std::string message = text ? text : std::string("(error object is a ") + luaL_typename(L_, -1) + " value)";
-  if (was_interrupted_) message = message.substr(0, message.find("\nstack traceback:"));
-  tell(terminal_, message);
+  tell(terminal_, text ? text : std::string("(error object is a ") + luaL_typename(L_, -1) + " value)");
   lua_pop(L_, 1);
+}
+
+void Session::tell_interrupt() {
+  if (terminal_.input && terminal_.messages) std::fputc('\n', stderr);  // behind the terminal's own ^C
+  tell(terminal_, context_.struck_at.empty() ? "interrupted" : context_.struck_at);
 }
 
 void Session::resume_after_interrupt() {

@@ -34,6 +34,8 @@ class Session {
   void resume_after_interrupt();
 
  private:
+  void tell_interrupt();
+
   Terminal terminal_;
   lua::Context context_;
   Interrupts interrupts_;

@@ -13,6 +13,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <thread>
 
 namespace cli {
 namespace {
@@ -80,8 +81,9 @@ class Piped {
     in_ = -1;
   }
 
-  void interrupt_when_ready() {
+  void interrupt_when_ready(std::chrono::milliseconds after) {
     read_until([this] { return outcome_.out.find("ready\n") != std::string::npos; });
+    std::this_thread::sleep_for(after);
     ::kill(child_, SIGINT);
   }
 
@@ -133,9 +135,9 @@ Outcome run(const std::vector<std::string>& arguments, const std::string& input,
   return program.finish();
 }
 
-Outcome run_and_interrupt(const std::vector<std::string>& arguments) {
+Outcome run_and_interrupt(const std::vector<std::string>& arguments, std::chrono::milliseconds after) {
   Piped program(arguments, {});
-  program.interrupt_when_ready();
+  program.interrupt_when_ready(after);
   return program.finish();
 }
 

@@ -3,6 +3,7 @@
 
 #include <sys/types.h>
 
+#include <chrono>
 #include <map>
 #include <string>
 #include <vector>
@@ -20,8 +21,8 @@ struct Outcome {
 /// Runs `tendril arguments...` to its end with `input` on standard input.
 Outcome run(const std::vector<std::string>& arguments, const std::string& input = "", const Environment& environment = {});
 
-/// Starts the program, sends SIGINT once it has printed a line "ready", and waits for its end.
-Outcome run_and_interrupt(const std::vector<std::string>& arguments);
+/// Starts the program, sends SIGINT `after` it has printed a line "ready", and waits for its end.
+Outcome run_and_interrupt(const std::vector<std::string>& arguments, std::chrono::milliseconds after = {});
 
 /// The program on a terminal of its own, 100 columns wide.
 class TerminalSession {

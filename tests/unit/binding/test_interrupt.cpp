@@ -6,7 +6,6 @@
 #include "unit/binding/script.h"
 
 using namespace tendril::lua;
-using Catch::Matchers::Contains;
 
 namespace {
 
@@ -31,6 +30,12 @@ struct Interruptible : Script {
         });
   }
 
+  /// Runs `code` and says where it was struck; "" when it was not.
+  std::string struck(const std::string& code) {
+    (*this)(code);
+    return context.struck_at;
+  }
+
   void clear() {
     flag = false;
     rearm(L);
@@ -44,7 +49,7 @@ struct Interruptible : Script {
 
 TEST_CASE("the instruction after an interrupt raises the error") {
   Interruptible lua;
-  CHECK(lua("test.press()\nreached = true") == "code:2: interrupted");
+  CHECK(lua.struck("test.press()\nreached = true") == "code:2: interrupted");
   lua.clear();
   CHECK(lua("return reached") == "nil");
 }
@@ -61,29 +66,29 @@ TEST_CASE("no pcall, coroutine or handler swallows an interrupt") {
       "do local x <close> = setmetatable({}, {__close = function() test.press() end}) end while true do end",
       "table.sort({5, 4, 3, 2, 1}, function(a, b) test.press() return a < b end) while true do end");
   INFO(code);
-  CHECK_THAT(lua(code), Contains("interrupted") || Contains("error in error handling") || Contains("stack overflow"));
+  CHECK(lua.struck(code) == "code:1: interrupted");
   lua.clear();
   CHECK(lua("local n = 0 for i = 1, 1e5 do n = n + 1 end return n") == "100000");
 }
 
 TEST_CASE("a cancelled computation hands its result to the script before the interrupt strikes") {
   Interruptible lua;
-  CHECK_THAT(lua("result = test.compute()\nwhile true do end"), Contains("interrupted"));
+  CHECK(lua.struck("result = test.compute()\nwhile true do end") != "");
   lua.clear();
   CHECK(lua("return result") == "cancelled");
 }
 
 TEST_CASE("a loop of computations is interrupted, each being given up at once") {
   Interruptible lua;
-  CHECK_THAT(lua("n = 0 while true do local r = test.compute() n = n + 1 end"), Contains("interrupted"));
+  CHECK(lua.struck("n = 0 while true do local r = test.compute() n = n + 1 end") != "");
   CHECK(lua.computed < 10);
 }
 
 TEST_CASE("only one computation of an interrupt is given the grace") {
   Interruptible lua;
-  CHECK_THAT(lua("while true do pcall(function() while true do test.compute() end end) end"), Contains("interrupted"));
+  CHECK(lua.struck("while true do pcall(function() while true do test.compute() end end) end") != "");
   lua.clear();
-  CHECK_THAT(lua("again = test.compute() while true do end"), Contains("interrupted"));
+  CHECK(lua.struck("again = test.compute() while true do end") != "");
   lua.clear();
   CHECK(lua("return again") == "cancelled");
 }
@@ -91,7 +96,7 @@ TEST_CASE("only one computation of an interrupt is given the grace") {
 TEST_CASE("a suspended coroutine that had been struck runs again later") {
   Interruptible lua;
   lua("c = coroutine.wrap(function() for i = 1, 3 do coroutine.yield(i) end end) c()");
-  CHECK_THAT(lua("coroutine.wrap(function() test.press() end)() "), Contains("interrupted"));
+  CHECK(lua.struck("coroutine.wrap(function() test.press() end)() ") != "");
   lua.clear();
   CHECK(lua("return c(), c()") == "2, 3");
 }
