@@ -91,7 +91,7 @@ void Newton::leave_saddle(RodState& state) {
 
 NewtonOutcome Newton::run(RodState& state, const NewtonOptions& options, const RunContext& context) {
   NewtonOutcome out;
-  stress_ = options.descend || options.warm ? Stress::actual : Stress::zero;
+  stress_ = options.descend || options.warm ? Stress::actual : options.continued ? Stress::predicted : Stress::zero;
   linear_.begin();
   previous_size_ = INFINITY;
   smallest_size_ = settled_step;

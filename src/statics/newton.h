@@ -40,6 +40,7 @@ struct NewtonOptions {
   int max_iterations = 40;
   bool stable_only = true;
   bool warm = false;       ///< start from the actual wrenches, not from none
+  bool continued = false;  ///< start from the wrenches that the run before ended with
   bool descend = false;    ///< energy descent (Armijo) instead of mixed stress
 };
 

@@ -77,6 +77,10 @@ class RodSystem {
   /// segments. Large while bent segments look stretched; the fourth-order correction is quadratic in it.
   virtual double false_stress() const { return 0; }
 
+  /// Takes another solution's internal forces (world axes) and moments (section axes at mid-segment), one a segment, for
+  /// the predicted wrench. Elements that need no such help ignore it.
+  virtual void expect(const RodState&, const std::vector<Vec3>& /*forces*/, const std::vector<Vec3>& /*moments*/) {}
+
   /// Stiffness EA and GA no larger than this (N); infinity: the true ones.
   virtual void cap_stretch_stiffness(double limit) = 0;
 

@@ -114,6 +114,14 @@ double Se3System::false_stress() const {
   return std::sqrt(largest);
 }
 
+void Se3System::expect(const RodState& state, const std::vector<Vec3>& forces, const std::vector<Vec3>& moments) {
+  for (int i = 0; i + 1 < nodes_; ++i) {
+    const Quat middle = state.q[i].slerp(0.5, state.q[i + 1]);
+    put(predicted_[i / 4].n, middle.conjugate() * forces[i], i % 4);
+    put(predicted_[i / 4].m, moments[i], i % 4);
+  }
+}
+
 void Se3System::cap_stretch_stiffness(double limit) {
   for (int i = 0; i < 4 * packs(); ++i) {
     const Section& section = mesh_.segments[std::min(i, nodes_ - 2)].section;

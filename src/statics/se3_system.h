@@ -15,6 +15,7 @@ class Se3System final : public RodSystem {
   std::vector<Frame> frames_of(const RodState& state) const override;
   void predict(const std::vector<Vec6>& step, double share) override;
   double false_stress() const override;
+  void expect(const RodState& state, const std::vector<Vec3>& forces, const std::vector<Vec3>& moments) override;
   void cap_stretch_stiffness(double limit) override;
   void describe(const RodState& state, Equilibrium& out) override;
   void add_reaction(int hold, const RodState& state, const std::vector<Vec6>& gradient, Reaction& out) const override;

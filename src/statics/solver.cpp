@@ -17,6 +17,18 @@ double softened_stiffness(const RodSystem& system) {
   return std::max(1e4 * system.bending_scale(), 50 * loads);
 }
 
+/// Segments so long that the tension outweighs the bending stiffness over them: the fourth-order element's series in
+/// h^2 n/(12 EI) is then no longer one.
+bool too_long_for_tension(const RodSystem& system, const Equilibrium& found) {
+  double largest = 0;
+  for (std::size_t i = 0; i < found.forces.size(); ++i) {
+    const MeshSegment& segment = system.mesh().segments[i];
+    const double softest = std::min(segment.section.EI1, segment.section.EI2);
+    largest = std::max(largest, segment.length * segment.length * found.forces[i].norm() / (12 * softest));
+  }
+  return largest > 0.5;
+}
+
 std::string explain_failure(const NewtonOutcome& outcome, const RodSystem& system) {
   char text[256];
   switch (outcome.status) {
@@ -35,6 +47,8 @@ std::string explain_failure(const NewtonOutcome& outcome, const RodSystem& syste
 
 RodSolver::RodSolver(const RodProblem& problem, const SolveOptions& options, int segments, int refinement)
     : options_(options),
+      segments_(segments),
+      refinement_(refinement),
       system_(make_rod_system(problem, options, cut_into_segments(problem, segments, refinement))),
       newton_(*system_, nullptr) {
   if (problem.surroundings) contact_ = std::make_unique<ContactSolver>(*system_, options_);
@@ -67,6 +81,7 @@ NewtonOutcome RodSolver::iterate(RodState& state, bool warm, const RunContext& c
 
 NewtonOutcome RodSolver::with_fallbacks(RodState& state, bool warm, const RunContext& context, int& fallbacks) {
   const RodState start = state;
+  substitute_.reset();
   NewtonOutcome outcome = iterate(state, warm, context);
   if (outcome.status != Status::stalled) return outcome;
   int spent = outcome.iterations;
@@ -88,7 +103,15 @@ NewtonOutcome RodSolver::with_fallbacks(RodState& state, bool warm, const RunCon
     outcome.iterations += spent;
     return outcome;
   }
-  // B: down the energy of a rod that stretches easily, then mixed-stress steps on the true one.
+  // B: by way of the staggered element.
+  if (options_.element == Element::se3) {
+    ++fallbacks;
+    state = start;
+    outcome = by_staggered(state, options_.max_iterations - spent, context);
+    outcome.iterations = spent += outcome.iterations;
+    if (outcome.status != Status::stalled) return outcome;
+  }
+  // C: down the energy of a rod that stretches easily, then mixed-stress steps on the true one.
   ++fallbacks;
   system_->cap_stretch_stiffness(softened_stiffness(*system_));
   attempt(true, 300, true);
@@ -96,9 +119,38 @@ NewtonOutcome RodSolver::with_fallbacks(RodState& state, bool warm, const RunCon
   if (outcome.status == Status::cancelled || outcome.status == Status::timeout) return outcome;
   attempt(false, 60, false);
   if (outcome.status != Status::stalled) return outcome;
-  // C: down the true energy.
+  // D: down the true energy.
   ++fallbacks;
   attempt(true, options_.max_iterations, true);
+  return outcome;
+}
+
+NewtonOutcome RodSolver::by_staggered(RodState& state, int most, const RunContext& context) {
+  SolveOptions options = options_;
+  options.element = Element::staggered;
+  options.clamp = ClampRule::half_cell;
+  options.max_iterations = most;
+  RodSolver other(system_->problem(), options, segments_, refinement_);
+  RodState there = other.system_->state_from(system_->frames_of(state));
+  int its_fallbacks = 0;
+  NewtonOutcome outcome = other.with_fallbacks(there, false, context, its_fallbacks);
+  if (outcome.status != Status::solved) return outcome;
+  Equilibrium found;
+  other.describe(there, found);
+  RodState closer = system_->state_from(other.system_->frames_of(there));
+  system_->expect(closer, found.forces, found.moments);
+  NewtonOptions from_there;
+  from_there.tolerance = options_.tolerance;
+  from_there.continued = true;
+  from_there.max_iterations = std::min(40, most - outcome.iterations);
+  NewtonOutcome refined = newton_.run(closer, from_there, context);
+  refined.iterations += outcome.iterations;
+  outcome.iterations = refined.iterations;
+  if (refined.status == Status::solved || !too_long_for_tension(*system_, found)) {
+    state = closer;
+    return refined;
+  }
+  substitute_ = std::make_unique<Equilibrium>(std::move(found));
   return outcome;
 }
 
@@ -148,13 +200,21 @@ Equilibrium RodSolver::solve(const RunContext& context, const Equilibrium* from)
   Equilibrium out;
   RodState state = starting_state(from);
   const NewtonOutcome outcome = with_fallbacks(state, from != nullptr, context, out.fallbacks);
+  const bool substituted = outcome.status == Status::solved && substitute_;
+  if (substituted) {
+    const int fallbacks = out.fallbacks;
+    out = *substitute_;
+    out.fallbacks = fallbacks;
+  }
   out.status = outcome.status;
   out.iterations = outcome.iterations;
   out.last_step = outcome.last_step;
   out.negative_pivots = outcome.negative_pivots;
   out.stable = outcome.status == Status::solved && outcome.negative_pivots == 0;
-  out.message = out.ok() ? "solved" : explain_failure(outcome, *system_);
-  describe(state, out);
+  out.message = substituted ? "solved with the staggered element: the segments are too long for the tension in them"
+                : out.ok()  ? "solved"
+                            : explain_failure(outcome, *system_);
+  if (!substituted) describe(state, out);
   return out;
 }
 

@@ -28,14 +28,19 @@ class RodSolver {
 
  private:
   NewtonOutcome with_fallbacks(RodState& state, bool warm, const RunContext& context, int& fallbacks);
+  /// The staggered element copes with segments too long for the tension in them. Its solution starts this element, or
+  /// stands in for it (substitute_) where the segments are too long indeed.
+  NewtonOutcome by_staggered(RodState& state, int most, const RunContext& context);
   Equilibrium solve_in_contact(const RunContext& context, const Equilibrium* from);
   NewtonOutcome load_in_steps(RodState& state, const RunContext& context);
   void describe(const RodState& state, Equilibrium& out);
 
   SolveOptions options_;
+  int segments_, refinement_;
   std::unique_ptr<RodSystem> system_;
   Newton newton_;
   std::unique_ptr<ContactSolver> contact_;  ///< null without surroundings
+  std::unique_ptr<Equilibrium> substitute_;
   std::vector<Vec6> gradient_;
 };
 
