@@ -37,9 +37,16 @@ local function row(what, value, unit, mark)
   print(("%-76s %10.4g %-3s %8s %8s"):format(what, value, unit, mark and ("%g"):format(mark) or "", ratio))
 end
 
+local function readable(time)
+  for _, unit in ipairs{"s", "ms", "us"} do
+    if time >= seconds[unit] then return time / seconds[unit], unit end
+  end
+  return time / seconds.ns, "ns"
+end
+
 local marks = read_marks(arg[1])
 print(("%-76s %10s %-3s %8s %8s"):format("benchmark", "figure", "", "mark", "ratio"))
-local met = {}
+local met, measured = {}, {}
 for i = 2, #arg do
   local file = assert(io.open(arg[i]))
   local text = file:read("a")
@@ -47,6 +54,7 @@ for i = 2, #arg do
   local runs = text:match('"benchmarks": %[(.*)%]') or error(arg[i] .. " holds no results", 0)
   for block in runs:gmatch("{(.-)\n%s*}") do
     local run = fields_of(block)
+    measured[run.name] = true
     if run.error_occurred then error(run.name .. ": " .. tostring(run.error_message), 0) end
     for _, m in ipairs(marks[run.name] or {}) do
       local value = figure_of(run, m.figure, m.unit)
@@ -58,10 +66,16 @@ for i = 2, #arg do
       local label = run.label and run.label ~= "" and run.label or nil
       local wall = run.name:match("real_time") or run.name:match("manual_time")
       row(run.name:gsub("/process_time", ""):gsub("/real_time", ""):gsub("/manual_time", "") .. (label and ": " .. label or ""),
-          wall and run.real_time or run.cpu_time, run.time_unit)
+          readable((wall and run.real_time or run.cpu_time) * seconds[run.time_unit]))
     end
   end
 end
 local kept = 0
 for _, ok in ipairs(met) do kept = kept + (ok and 1 or 0) end
 print(("%d of %d marks kept"):format(kept, #met))
+local missing = {}
+for name in pairs(marks) do
+  if not measured[name] then table.insert(missing, name) end
+end
+table.sort(missing)
+if #missing > 0 then print("not measured: " .. table.concat(missing, ", ")) end
