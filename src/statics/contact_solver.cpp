@@ -197,6 +197,8 @@ std::string ContactSolver::place_of(int point) const {
 void ContactSolver::add_gradient(const RodState& state, std::vector<Vec6>& gradient) {
   scratch_.resize(system_->nodes());
   for (Vec6& g : scratch_.gradient) g.setZero();
+  for (Mat6& block : scratch_.diagonal) block.setZero();
+  for (Mat6& block : scratch_.upper) block.setZero();
   terms_.set_exact(true);
   terms_.assemble(state, Stress::actual, scratch_);
   terms_.set_exact(false);
