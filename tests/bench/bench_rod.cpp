@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
+#include <utility>
 #include <vector>
 
 #include "statics/solve.h"
@@ -103,12 +105,22 @@ void hose_warm(benchmark::State& state) {
   state.counters["iterations"] = outcome.iterations;
 }
 
-}  // namespace
+void with_names(benchmark::internal::Benchmark* run, std::initializer_list<std::pair<int, Element>> meshes) {
+  run->ArgNames({"segments", "staggered"});
+  for (const auto& [segments, element] : meshes) run->Args({segments, element == Element::staggered});
+}
 
-// Error at most 1e-4 L for the hose and 1e-6 L for the cantilever: the smallest meshes that reach it.
-BENCHMARK(hose_newton)->ArgNames({"segments", "staggered"})->Args({16, 0})->Args({20, 0})->Args({40, 0})->Args({40, 1})->Args({160, 1});
-BENCHMARK(hose_solve)->ArgNames({"segments", "staggered"})->Args({16, 0})->Args({40, 0})->Args({120, 1});
-BENCHMARK(hose_warm)->ArgNames({"segments", "staggered"})->Args({16, 0})->Args({40, 0})->Args({40, 1});
-BENCHMARK(cantilever_newton)->ArgNames({"segments", "staggered"})->Args({10, 0})->Args({12, 0})->Args({40, 0})->Args({40, 1});
-BENCHMARK(cantilever_solve)->ArgNames({"segments", "staggered"})->Args({12, 0})->Args({40, 1});
-BENCHMARK(hose_newton)->Name("hose_over_segments")->ArgNames({"segments", "staggered"})->Args({10, 0})->Args({100, 0})->Args({1000, 0})->Args({10000, 0})->Args({1000, 1});
+// The hose's error is at most 1e-4 L and the cantilever's 1e-6 L from the second mesh of each list on.
+const int registered = [] {
+  constexpr auto se3 = Element::se3, staggered = Element::staggered;
+  auto add = [](const char* name, void (*run)(benchmark::State&)) { return benchmark::RegisterBenchmark(name, run); };
+  with_names(add("hose_newton", hose_newton), {{16, se3}, {18, se3}, {40, se3}, {40, staggered}, {120, staggered}});
+  with_names(add("hose_solve", hose_solve), {{16, se3}, {18, se3}, {40, se3}, {120, staggered}});
+  with_names(add("hose_warm", hose_warm), {{16, se3}, {18, se3}, {40, se3}, {40, staggered}});
+  with_names(add("cantilever_newton", cantilever_newton), {{10, se3}, {14, se3}, {40, se3}, {40, staggered}});
+  with_names(add("cantilever_solve", cantilever_solve), {{10, se3}, {14, se3}, {40, se3}, {40, staggered}});
+  with_names(add("hose_over_segments", hose_newton), {{10, se3}, {100, se3}, {1000, se3}, {10000, se3}, {1000, staggered}});
+  return 0;
+}();
+
+}  // namespace
