@@ -10,6 +10,7 @@ constexpr double largest_step = 1;         // rad, and share of the length
 constexpr double saddle_step = 1e-6;       // a shifted step this small: the slope is gone, the negative curvature is not
 constexpr double rough_step = 0.2;         // steps above this leave a wrench too rough for the fourth-order terms,
 constexpr double rough_stress = 1;         // and so does a false stress above this
+constexpr double stiff_stretch = 1e3;       // h^2 EA/(12 EI): above it no step is small enough to leave no false stress
 constexpr int most_mode_moves = 6;
 constexpr double mode_step = 0.1;          // rad, and share of the length: how far a saddle is left
 constexpr double quadratic_regime = 1e-2;  // below this a step predicts the next one
@@ -26,7 +27,7 @@ void Newton::assemble(const RodState& state) {
   };
   all_terms();
   if (stress_ != Stress::predicted || system_.false_stress() <= rough_stress) return;
-  stress_ = Stress::deferred;
+  stress_ = system_.stretch_stiffness() > stiff_stretch ? Stress::deferred : Stress::rough;
   all_terms();
 }
 

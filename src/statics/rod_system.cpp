@@ -34,6 +34,9 @@ RodSystem::RodSystem(const RodProblem& problem, RodMesh mesh) : problem_(problem
   double stiffest = 0, shortest = length();
   for (const RodPart& part : problem.rod.parts) stiffest = std::max(stiffest, part.section.EA);
   for (const MeshSegment& segment : mesh_.segments) shortest = std::min(shortest, segment.length);
+  for (const MeshSegment& segment : mesh_.segments)
+    stretch_stiffness_ = std::max(stretch_stiffness_, segment.length * segment.length * segment.section.EA /
+                                                          (12 * std::min(segment.section.EI1, segment.section.EI2)));
   const double cells = length() / shortest;
   neutral_shift_ = std::clamp(1e-15 * stiffest / bending_scale_ * cells * cells, 1e-3, 0.1);
 }

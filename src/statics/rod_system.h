@@ -81,6 +81,9 @@ class RodSystem {
   /// the predicted wrench. Elements that need no such help ignore it.
   virtual void expect(const RodState&, const std::vector<Vec3>& /*forces*/, const std::vector<Vec3>& /*moments*/) {}
 
+  /// Stretch against bending over one segment: h^2 EA/(12 EI), the largest. What a false stretch strain is multiplied by.
+  double stretch_stiffness() const { return stretch_stiffness_; }
+
   /// Stiffness EA and GA no larger than this (N); infinity: the true ones.
   virtual void cap_stretch_stiffness(double limit) = 0;
 
@@ -110,6 +113,7 @@ class RodSystem {
   int nodes_ = 0;
   double bending_scale_ = 0;
   double neutral_shift_ = 0;
+  double stretch_stiffness_ = 0;
   std::vector<HeldMask> held_;
   std::vector<Target> targets_;
   std::vector<double> node_length_;
