@@ -84,7 +84,8 @@ RodProblem facing(Random& random, double angle_a, double angle_b, double chord) 
 
 RodProblem anything(Random& random) {
   const double far = std::cbrt(random_between(random, 0, 1)) * 0.95;
-  RodProblem problem = between(slender_rod(std::pow(10, random_between(random, 1.5, 4))), {Vec3::Zero(), random_rotation(random)},
+  const double slenderness = std::pow(10, random_between(random, 1.5, 4));
+  RodProblem problem = between(slender_rod(slenderness), {Vec3::Zero(), random_rotation(random)},
                                {far * random_direction(random), random_rotation(random)});
   if (random_between(random, 0, 1) < 0.5) add_weight(random, problem, random_between(random, 0, 300));
   return problem;
@@ -92,9 +93,10 @@ RodProblem anything(Random& random) {
 
 RodProblem near_half_turn(Random& random) {
   const Quat start = random_rotation(random);
-  const double angle = units::pi - std::pow(10, random_between(random, -16, -3)) * (random_between(random, 0, 1) < 0.5 ? -1 : 1);
-  return between(slender_rod(150), {Vec3::Zero(), start},
-                 {random_between(random, 0.1, 0.9) * random_direction(random), start * exp_rotation(angle * random_direction(random))});
+  const double side = random_between(random, 0, 1) < 0.5 ? -1 : 1;
+  const double angle = units::pi - side * std::pow(10, random_between(random, -16, -3));
+  const Vec3 place = random_between(random, 0.1, 0.9) * random_direction(random);
+  return between(slender_rod(150), {Vec3::Zero(), start}, {place, start * exp_rotation(angle * random_direction(random))});
 }
 
 RodProblem compressed(Random& random) {
@@ -150,8 +152,12 @@ std::vector<RodFamily> rod_families() {
   const double half = units::pi;
   all.push_back({"Young's modulus x 1e6", hard_material});
   all.push_back({"chord 1.05 L", stretched});
-  all.push_back({"opposed clamps", [half](Random& random) { return facing(random, 0, half, random_between(random, 0.05, 0.9)); }});
-  all.push_back({"clamps facing outward", [half](Random& random) { return facing(random, half, half, random_between(random, 0.05, 0.9)); }});
+  all.push_back({"opposed clamps", [half](Random& random) {
+                   return facing(random, 0, half, random_between(random, 0.05, 0.9));
+                 }});
+  all.push_back({"clamps facing outward", [half](Random& random) {
+                   return facing(random, half, half, random_between(random, 0.05, 0.9));
+                 }});
   all.push_back({"ends coincident", [half](Random& random) {
                    return facing(random, random_between(random, 0, half), random_between(random, 0, half), 0);
                  }});

@@ -2,6 +2,9 @@
 // Also equilibria that no cold start reaches.
 #include <catch2/catch.hpp>
 
+#include <cmath>
+#include <string>
+
 #include "validation/reference.h"
 
 using namespace tendril;
@@ -53,7 +56,8 @@ TEST_CASE("boundary layers of 4.5e-5 L: far below any sensible mesh") {
     CHECK(errors.line < 3e-5);
     CHECK(errors.reaction < 2e-4);
   }
-  for (const int segments : {40, 160, 640}) {
+  // The fourth-order element is no use on segments this long for the tension; the staggered one stands in for it.
+  for (const int segments : {10, 20, 40, 160, 640}) {
     const Equilibrium e = solved_with_estimate(reference, se3, segments);
     CHECK_FALSE(e.error->valid);
     CHECK(errors_of(reference, e).line < 0.2 / segments);

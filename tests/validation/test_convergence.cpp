@@ -54,7 +54,8 @@ void check_all(const char* part) {
   for (const ExpectedErrors& expected : expected_errors()) {
     if (std::strncmp(expected.name, part, std::strlen(part)) != 0) continue;
     for (const Reference* reference : references_named(expected.name)) {
-      if (std::string(reference->label) == "R=2.5 turns, D=0.4, Kirchhoff") continue;  // reached by continuation: test_twisted
+      // No cold start leads there; by moving the end: test_coarse_meshes.cpp.
+      if (std::string(reference->label) == "R=2.5 turns, D=0.4, Kirchhoff") continue;
       check_method(*reference, se3, expected.segments, expected.se3);
       check_method(*reference, staggered, expected.segments, expected.staggered);
       check_method(*reference, thesis, expected.segments, expected.thesis);

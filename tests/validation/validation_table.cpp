@@ -25,8 +25,10 @@ void print_row(const Reference& reference, const Method& method, int segments) {
 
 int main(int count, char** arguments) {
   const char* wanted = count > 1 ? arguments[1] : "";
-  std::printf("centre line relative to L, reactions and energies relative to the largest; estimate of the centre line's error\n");
-  std::printf("  %-9s %5s  %9s %9s %9s  %9s %-7s %5s\n", "method", "N", "line", "reaction", "energy", "estimate", "", "order");
+  std::printf("centre line relative to L, reactions and energies relative to the largest;\n");
+  std::printf("estimate: of the centre line's error\n");
+  std::printf("  %-9s %5s  %9s %9s %9s  %9s %-7s %5s\n", "method", "N", "line", "reaction", "energy", "estimate", "",
+              "order");
   for (const Reference* reference : all_references()) {
     if (!std::strstr(reference->name, wanted)) continue;
     std::printf("%s, %s\n", reference->name, reference->label);
