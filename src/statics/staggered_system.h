@@ -31,12 +31,12 @@ class StaggeredSystem final : public RodSystem {
     Quat held;
     int hold = -1;
     Vec3 actual = Vec3::Zero(), predicted = Vec3::Zero(), geometric = Vec3::Zero();
-    Mat3 rate_a, rate_b;
+    Mat3 rate_a = Mat3::Zero(), rate_b = Mat3::Zero();
   };
   struct Stretch {
     StretchSegment segment;
     Vec3 actual = Vec3::Zero(), predicted = Vec3::Zero(), geometric = Vec3::Zero();
-    Mat3 rate_r, rate_theta;
+    Mat3 rate_r = Mat3::Zero(), rate_theta = Mat3::Zero();
   };
 
   int segments() const { return static_cast<int>(stretches_.size()); }
