@@ -62,7 +62,7 @@ TEST_CASE("a loop of solves, each in a pcall, is ended by one interrupt") {
   CHECK(o.code == 130);
 }
 
-TEST_CASE("Ctrl-C in an interactive solve keeps the session and the cancelled result") {
+TEST_CASE("Ctrl-C in an interactive solve keeps the session and the cancelled result", "[terminal]") {
   const cli::Folder folder;
   cli::TerminalSession session({"-i", folder.file("scene.lua", long_solve)});
   session.wait_for("> ");

@@ -41,7 +41,7 @@ std::string content_of(const std::string& path) {
 
 }  // namespace
 
-TEST_CASE("expressions print, statements run, Ctrl-D leaves") {
+TEST_CASE("expressions print, statements run, Ctrl-D leaves", "[terminal]") {
   Started session;
   session.answer("6 * 7", "42");
   session.answer("x = 5", "");
@@ -51,7 +51,7 @@ TEST_CASE("expressions print, statements run, Ctrl-D leaves") {
   CHECK(session.leave() == 0);
 }
 
-TEST_CASE("an error is told and the session goes on") {
+TEST_CASE("an error is told and the session goes on", "[terminal]") {
   Started session;
   session.answer("frame{at = 3}", "option 'at': got a number (3)");
   session.answer("x = = 1", "unexpected symbol near '='");
@@ -59,7 +59,7 @@ TEST_CASE("an error is told and the session goes on") {
   CHECK(session.leave() == 0);
 }
 
-TEST_CASE("a statement may take several lines") {
+TEST_CASE("a statement may take several lines", "[terminal]") {
   Started session;
   session.type("for i = 1, 2 do\r");
   session.wait_for(">> ");
@@ -71,7 +71,7 @@ TEST_CASE("a statement may take several lines") {
   CHECK(session.leave() == 0);
 }
 
-TEST_CASE("Ctrl-C at the prompt clears the line, also in the middle of a statement") {
+TEST_CASE("Ctrl-C at the prompt clears the line, also in the middle of a statement", "[terminal]") {
   Started session;
   session.type("error('never run')" + ctrl_c);
   session.wait_for("> ");
@@ -85,7 +85,7 @@ TEST_CASE("Ctrl-C at the prompt clears the line, also in the middle of a stateme
   CHECK(session.transcript().find("never run\n") == std::string::npos);
 }
 
-TEST_CASE("Ctrl-C stops what runs and keeps the variables") {
+TEST_CASE("Ctrl-C stops what runs and keeps the variables", "[terminal]") {
   Started session;
   session.answer("kept = 7", "");
   for (const char* loop :
@@ -102,7 +102,7 @@ TEST_CASE("Ctrl-C stops what runs and keeps the variables") {
   CHECK(session.leave() == 0);
 }
 
-TEST_CASE("a coroutine that was interrupted does not trouble the session later") {
+TEST_CASE("a coroutine that was interrupted does not trouble the session later", "[terminal]") {
   Started session;
   session.answer("co = coroutine.create(function() pcall(function() io.write('run' .. 'ning') io.flush() while true do end end) end)", "");
   session.answer("other = coroutine.wrap(function() for i = 1, 3 do coroutine.yield(i) end end)", "");
@@ -115,7 +115,7 @@ TEST_CASE("a coroutine that was interrupted does not trouble the session later")
   CHECK(session.leave() == 0);
 }
 
-TEST_CASE("completion of globals, members and option names") {
+TEST_CASE("completion of globals, members and option names", "[terminal]") {
   Started session;
   session.answer("uni" + tab + ".MP" + tab, "1000000.0");
   session.answer("v = vec(3, 4, 0)", "");
@@ -131,7 +131,7 @@ TEST_CASE("completion of globals, members and option names") {
   CHECK(session.leave() == 0);
 }
 
-TEST_CASE("a pasted block runs as one, and tabs in it do not complete") {
+TEST_CASE("a pasted block runs as one, and tabs in it do not complete", "[terminal]") {
   Started session;
   session.type("\033[200~local a = 20\n\tlocal b = 22\n\tif a then\n\t\tprint('sum ' .. a + b)\n\tend\n\033[201~");
   session.wait_for("sum 42");
@@ -148,7 +148,7 @@ TEST_CASE("a pasted block runs as one, and tabs in it do not complete") {
   CHECK(session.transcript().find("201~") == std::string::npos);
 }
 
-TEST_CASE("nothing of a pasted block with an error in its syntax runs") {
+TEST_CASE("nothing of a pasted block with an error in its syntax runs", "[terminal]") {
   Started session;
   session.type("\033[200~print('first' .. ' part')\nx = = 1\nprint('last' .. ' part')\n\033[201~");
   session.wait_for("unexpected symbol");
@@ -158,7 +158,7 @@ TEST_CASE("nothing of a pasted block with an error in its syntax runs") {
   CHECK(session.transcript().find("last part") == std::string::npos);
 }
 
-TEST_CASE("the history lasts over sessions") {
+TEST_CASE("the history lasts over sessions", "[terminal]") {
   const Folder folder;
   const cli::Environment there{{"XDG_STATE_HOME", folder.path()}};
   {
@@ -176,7 +176,7 @@ TEST_CASE("the history lasts over sessions") {
   CHECK(content_of(folder.path() + "/tendril/history") == "'first ' .. 'session'\n");
 }
 
-TEST_CASE("two sessions write one history") {
+TEST_CASE("two sessions write one history", "[terminal]") {
   const Folder folder;
   const cli::Environment there{{"XDG_STATE_HOME", folder.path()}};
   Started one(there), two(there);
@@ -188,7 +188,7 @@ TEST_CASE("two sessions write one history") {
   CHECK(content_of(folder.path() + "/tendril/history") == "101\n202\n303\n");
 }
 
-TEST_CASE("a history that cannot be written is told once") {
+TEST_CASE("a history that cannot be written is told once", "[terminal]") {
   const Folder folder;
   const std::string file = folder.file("in_the_way", "");
   Started session(cli::Environment{{"XDG_STATE_HOME", file}});
@@ -201,7 +201,7 @@ TEST_CASE("a history that cannot be written is told once") {
   CHECK(text.find("history is not kept", told + 1) == std::string::npos);
 }
 
-TEST_CASE("?x and help(x) explain") {
+TEST_CASE("?x and help(x) explain", "[terminal]") {
   Started session;
   session.answer("?frame", "frame{at=, along=, [up=]} -> frame");
   session.answer("help(vec(1, 2, 3).length)", "vec:length() -> number");
@@ -211,7 +211,7 @@ TEST_CASE("?x and help(x) explain") {
   CHECK(session.leave() == 0);
 }
 
-TEST_CASE("a terminal that understands no escapes gets none, and no prompt") {
+TEST_CASE("a terminal that understands no escapes gets none, and no prompt", "[terminal]") {
   TerminalSession session({}, {{"TERM", "dumb"}});
   session.type("1 + 1\r");
   session.wait_for("\n2\r\n");
@@ -223,7 +223,7 @@ TEST_CASE("a terminal that understands no escapes gets none, and no prompt") {
   CHECK(session.transcript().find("> ") == std::string::npos);
 }
 
-TEST_CASE("errors are coloured unless NO_COLOR says otherwise") {
+TEST_CASE("errors are coloured unless NO_COLOR says otherwise", "[terminal]") {
   Started coloured;
   coloured.answer("error('a' .. 'b')", "\033[31mtendril: stdin:1: ab");
   CHECK(coloured.leave() == 0);
@@ -233,7 +233,7 @@ TEST_CASE("errors are coloured unless NO_COLOR says otherwise") {
   CHECK(plain.transcript().find("\033[31m") == std::string::npos);
 }
 
-TEST_CASE("letters beyond ASCII are edited whole") {
+TEST_CASE("letters beyond ASCII are edited whole", "[terminal]") {
   Started session;
   session.type("'Schl\xC3\xA4uche\xC3\xBC\x7F'\r");  // the last letter is rubbed out
   session.wait_for("\n");
@@ -242,7 +242,7 @@ TEST_CASE("letters beyond ASCII are edited whole") {
   CHECK(session.leave() == 0);
 }
 
-TEST_CASE("-i enters the session after a script, with its globals") {
+TEST_CASE("-i enters the session after a script, with its globals", "[terminal]") {
   const Folder folder;
   TerminalSession session({"-i", folder.file("s.lua", "answer = 41")});
   session.wait_for("> ");
