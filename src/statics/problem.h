@@ -15,6 +15,8 @@ struct Hold {
   Frame frame;
   bool position = true;
   bool orientation = true;
+  /// The rod slips through without friction along d3: `at` is where the search begins, the arc length there an unknown.
+  bool slide = false;
   double turns = 0;  ///< extra full turns about the tangent relative to the start: a frame alone cannot tell 0 from 360 degrees
 };
 
@@ -43,6 +45,27 @@ struct RodProblem {
   /// Throws UsageError naming what cannot be: places outside the rod, contradictory holds, non-finite numbers, a rod
   /// that can move as a rigid body, a weight that the rod's stretch stiffness cannot carry.
   void check() const;
+};
+
+/// A section that belongs to a branch point.
+struct JoinedSection {
+  int rod = 0;      ///< which of the system's rods
+  double at = 0;    ///< arc length, m
+  Frame relative;   ///< the section's frame seen from the branch point's
+};
+
+/// A rigid point that sections of several rods share: they move and turn as one body.
+struct BranchPoint {
+  std::vector<JoinedSection> sections;
+  Frame frame;               ///< where it is held; where it is free: only a hint for the first guess
+  bool position = false;     ///< held
+  bool orientation = false;  ///< held
+};
+
+/// Rods that are solved together.
+struct SystemProblem {
+  std::vector<RodProblem> rods;
+  std::vector<BranchPoint> branches;
 };
 
 struct SolveOptions {
