@@ -4,12 +4,17 @@
 
 #include <cmath>
 
-#include "base/vectors.h"
+// Code that is compiled for another instruction set than the rest of the program takes these headers into a namespace of
+// its own: else the linker might keep that code's copy of an inline function for all.
+#ifndef TENDRIL_LANES_NAMESPACE
+#define TENDRIL_LANES_NAMESPACE tendril
+#endif
 
-namespace tendril {
+namespace TENDRIL_LANES_NAMESPACE {
 
-/// Four doubles that are worked on at once.
+/// Four doubles, or eight, that are worked on at once.
 using Pack = double __attribute__((vector_size(32)));
+using WidePack = double __attribute__((vector_size(64)));
 
 template <class T>
 inline constexpr int lanes_of = sizeof(T) / sizeof(double);
@@ -18,6 +23,8 @@ inline double& lane(double& value, int) { return value; }
 inline double lane(const double& value, int) { return value; }
 inline double& lane(Pack& value, int i) { return reinterpret_cast<double*>(&value)[i]; }
 inline double lane(const Pack& value, int i) { return value[i]; }
+inline double& lane(WidePack& value, int i) { return reinterpret_cast<double*>(&value)[i]; }
+inline double lane(const WidePack& value, int i) { return value[i]; }
 
 template <class T>
 inline T filled(double value) {
@@ -27,7 +34,7 @@ inline T filled(double value) {
 template <class T>
 inline double largest_lane(const T& value) {
   double largest = lane(value, 0);
-  for (int i = 1; i < lanes_of<T>; ++i) largest = std::max(largest, lane(value, i));
+  for (int i = 1; i < lanes_of<T>; ++i) largest = lane(value, i) > largest ? lane(value, i) : largest;
   return largest;
 }
 
@@ -163,4 +170,4 @@ inline M3<T> rotation_matrix(const Q4<T>& q) {
            two * (x * z - w * y), two * (y * z + w * x), one - two * (x * x + y * y)}};
 }
 
-}  // namespace tendril
+}  // namespace TENDRIL_LANES_NAMESPACE

@@ -2,12 +2,11 @@
 //   inverse left Jacobian   A(phi) = I - [phi]/2 + c [phi]^2,   c(u) = (1 - (t/2) cot(t/2)) / t^2,   u = t^2 = |phi|^2.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 
 #include "rod/lanes.h"
 
-namespace tendril {
+namespace TENDRIL_LANES_NAMESPACE {
 
 /// c and its first two derivatives with respect to u = t^2.
 template <class T>
@@ -56,26 +55,27 @@ inline T arctangent_over_x(const T& xx) {
 
 }  // namespace detail
 
-/// phi (rad, |phi| <= pi) with exp([phi]) = the rotation of the unit quaternion, and the coefficients at |phi|^2.
+/// phi (rad, |phi| <= pi) with exp([phi]) = the rotation of the unit quaternion, and the coefficients at |phi|^2. What a
+/// lane gets does not depend on the other lanes.
 template <class T>
 inline V3<T> rotation_log(Q4<T> p, JacobianCoefficients<T>& coefficients) {
   const T sign = p.w < 0 ? filled<T>(-1) : filled<T>(1);
   p.w *= sign;
   p.v = sign * p.v;
   const T sine_squared = dot(p.v, p.v);
-  const T ratio_squared = sine_squared / (p.w * p.w + 1e-300);
-  if (largest_lane(ratio_squared) < 0.0676) {
-    const T scale = filled<T>(2) / p.w * detail::arctangent_over_x(ratio_squared);
-    const V3<T> phi = scale * p.v;
-    coefficients = detail::jacobian_series(dot(phi, phi));
-    return phi;
-  }
-  T scale{}, angle_squared{};
+  // By the tangent of a quarter of the angle: below 0.2553 (1 rad) both series are exact to rounding.
+  const T over_one_more = filled<T>(1) / (filled<T>(1) + p.w);
+  const T tangent_squared = sine_squared * over_one_more * over_one_more;
+  constexpr double series_end = 0.0651;
+  T scale = filled<T>(4) * over_one_more * detail::arctangent_over_x(tangent_squared);
+  coefficients = detail::jacobian_series(scale * scale * sine_squared);
+  if (largest_lane(tangent_squared) < series_end) return scale * p.v;
   for (int i = 0; i < lanes_of<T>; ++i) {
+    if (!(lane(tangent_squared, i) >= series_end)) continue;
     const double sine = std::sqrt(lane(sine_squared, i)), w = lane(p.w, i);
     const double half = std::atan2(sine, w);
-    lane(scale, i) = sine > 1e-8 ? 2 * half / sine : 2;
-    const double u = lane(angle_squared, i) = 4 * half * half;
+    lane(scale, i) = 2 * half / sine;
+    const double u = 4 * half * half;
     const JacobianCoefficients<double> one =
         u < 1 ? detail::jacobian_series(u) : detail::jacobian_closed_form(u, half * w / sine);
     lane(coefficients.c, i) = one.c;
@@ -124,4 +124,4 @@ inline V3<T> turned_back(const V3<T>& t, const V3<T>& x) {
   return x - sine * once + cosine * cross(t, once);
 }
 
-}  // namespace tendril
+}  // namespace TENDRIL_LANES_NAMESPACE

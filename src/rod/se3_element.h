@@ -17,7 +17,7 @@
 
 #include "rod/rotation_log.h"
 
-namespace tendril {
+namespace TENDRIL_LANES_NAMESPACE {
 
 /// What a segment is: length h (m), q = h^2/12 or 0, flexibilities K^-1 by component, reference rates eps0 with e3.
 template <class T>
@@ -51,6 +51,7 @@ struct SegmentGradient {
 template <class T>
 struct SegmentHessian {
   M3<T> dd, da, db, aa, ab, bb;
+  V3<T> geometric_force;  ///< on d by the wrench of the geometric terms, world axes
 };
 
 /// What turns a step into the linearised change of the wrench.
@@ -332,7 +333,8 @@ inline SegmentGradient<T> se3_element(const Se3Segment<T>& s, const Se3Ends<T>& 
   out.dd = x.axes * (h_dd * axes_t);
   out.da = x.axes * h_da;
   out.db = x.axes * h_dp_b;
+  out.geometric_force = x.axes * f;
   return gradient;
 }
 
-}  // namespace tendril
+}  // namespace TENDRIL_LANES_NAMESPACE

@@ -1,0 +1,128 @@
+#include "statics/batch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "statics/batch_scalar.h"
+#include "statics/batch_worker.h"
+
+namespace tendril {
+namespace {
+
+const SystemProblem& checked(const SystemProblem& problem, const SolveOptions& options) {
+  if (const std::string why = Batch::why_not(problem, options); !why.empty())
+    throw UsageError("batch: this problem cannot be solved in batches: " + why);
+  for (const RodProblem& rod : problem.rods) rod.rod.check();
+  return problem;
+}
+
+Batch::Start nominal_start(const SystemProblem& nominal, const SolveOptions& options, const RunContext& context) {
+  checked(nominal, options);
+  const ScalarAnswer answer = solve_scalar(nominal, options, context);
+  if (answer.status != Status::solved)
+    throw UsageError("batch: the nominal equilibrium was not found: " + answer.message);
+  return answer.at;
+}
+
+Frame frame_of(const double* n) { return {{n[0], n[1], n[2]}, Quat(n[3], n[4], n[5], n[6])}; }
+
+}  // namespace
+
+// ---------------------------------------------------------------- results
+
+void BatchResults::resize(int outcomes, const SystemProblem& nominal, const BatchLayout& layout) {
+  first_vertex_ = {0};
+  first_hold_ = {0};
+  for (int k = 0; k < layout.rods(); ++k) {
+    first_vertex_.push_back(first_vertex_.back() + layout.vertices(k));
+    first_hold_.push_back(first_hold_.back() + static_cast<int>(nominal.rods[k].holds.size()));
+  }
+  branches_ = static_cast<int>(nominal.branches.size());
+  frame_numbers_ = 7 * (first_vertex_.back() + branches_);
+  reaction_numbers_ = 6 * first_hold_.back();
+  outcomes_.assign(outcomes, {});
+  frames_.resize(static_cast<std::size_t>(outcomes) * frame_numbers_);
+  reactions_.resize(static_cast<std::size_t>(outcomes) * reaction_numbers_);
+  messages_.clear();
+}
+
+std::span<const double> BatchResults::frames(int outcome, int rod) const {
+  return {&frames_[static_cast<std::size_t>(outcome) * frame_numbers_ + 7 * first_vertex_[rod]],
+          static_cast<std::size_t>(7 * vertices(rod))};
+}
+
+Frame BatchResults::frame(int outcome, int rod, int vertex) const { return frame_of(&frames(outcome, rod)[7 * vertex]); }
+
+Frame BatchResults::branch(int outcome, int branch) const {
+  return frame_of(&frames_[static_cast<std::size_t>(outcome) * frame_numbers_ + 7 * (first_vertex_.back() + branch)]);
+}
+
+BatchResults::Support BatchResults::reaction(int outcome, int rod, int hold) const {
+  const double* n =
+      &reactions_[static_cast<std::size_t>(outcome) * reaction_numbers_ + 6 * (first_hold_[rod] + hold)];
+  return {{n[0], n[1], n[2]}, {n[3], n[4], n[5]}};
+}
+
+std::string BatchResults::message(int outcome) const {
+  const auto found = messages_.find(outcome);
+  if (found != messages_.end()) return found->second;
+  switch (outcomes_[outcome].status) {
+    case Status::cancelled: return "interrupted before this outcome was solved";
+    case Status::timeout: return "out of time before this outcome was solved";
+    default: return {};
+  }
+}
+
+// ---------------------------------------------------------------- nominal equilibrium
+
+Batch::Batch(const SystemProblem& nominal, const SolveOptions& options, const RunContext& context)
+    : Batch(nominal, nominal_start(nominal, options, context), options) {}
+
+Batch::Batch(const SystemProblem& nominal, const Start& start, const SolveOptions& options)
+    : nominal_(nominal),
+      options_(options),
+      layout_(checked(nominal, options)),
+      kernel_(&best_batch_kernel()),
+      parameters_(layout_.parameter_count()),
+      frames_(7 * layout_.node_count()),
+      wrenches_(BatchBlocks::wrench * layout_.segment_count()) {
+  begin(start);
+}
+
+void Batch::begin(const Start& start) {
+  for (int k = 0; k < layout_.rods(); ++k)
+    if (static_cast<int>(start.vertices.at(k).size()) != layout_.vertices(k))
+      throw UsageError("batch: the nominal equilibrium of rod " + std::to_string(k + 1) + " has " +
+                       std::to_string(start.vertices[k].size()) + " vertices, expected " +
+                       std::to_string(layout_.vertices(k)));
+  if (!layout_.read(nominal_, parameters_.data()))
+    throw UsageError("batch: the nominal problem holds a number that makes no sense");
+  frames_ = layout_.node_frames(start.vertices, start.branches);
+  // At an equilibrium an iteration changes nothing but the wrenches, which become the actual ones.
+  BatchWorker(*this).refine(frames_, wrenches_);
+}
+
+// ---------------------------------------------------------------- outcomes
+
+void Batch::solve(int outcomes, const Fill& fill, BatchResults& results, const RunContext& context) const {
+  results.resize(outcomes, nominal_, layout_);
+  std::atomic<int> next = 0;
+  std::mutex guard;
+  // A worker is worth its start for a few packs.
+  const int most = (outcomes + 4 * kernel_->lanes - 1) / (4 * kernel_->lanes);
+  const int workers = std::min(thread_count(context.threads), most);
+  run_workers(workers, [&](int) { BatchWorker(*this, {fill, results, next, guard, context}).run(); });
+  const auto stop = context.stop();
+  for (BatchOutcome& outcome : results.outcomes_)
+    if (outcome.status == Status::cancelled && stop) outcome.status = *stop;
+}
+
+void Batch::solve(std::span<const SystemProblem> outcomes, BatchResults& results, const RunContext& context) const {
+  solve(static_cast<int>(outcomes.size()),
+        [&](int outcome, SystemProblem& problem) { problem = outcomes[outcome]; }, results, context);
+}
+
+}  // namespace tendril

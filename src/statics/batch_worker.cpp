@@ -1,0 +1,215 @@
+#include "statics/batch_worker.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <new>
+
+#include "base/error.h"
+#include "statics/batch_scalar.h"
+
+namespace tendril {
+namespace {
+
+constexpr int most_iterations = 12;
+constexpr int refining_iterations = 4;
+constexpr double refining_step = 1e-2;
+constexpr double largest_step = 1;     // rad, and share of the length: beyond it the scalar solver's damping is needed
+constexpr double rough_step = 0.2;     // after larger steps the actual wrench is too rough for the fourth-order terms,
+constexpr double rough_stretch = 0.5;  // and so it is where the step's second-order stretch makes this much of it
+constexpr double quadratic_regime = 1e-2;
+constexpr double settled_step = 1e-5;
+constexpr int settled_rounds = 5;
+
+Frame frame_at(const double* from, int offset, int stride, int lane) {
+  auto number = [&](int i) { return from[(offset + i) * stride + lane]; };
+  return {{number(0), number(1), number(2)}, Quat(number(3), number(4), number(5), number(6))};
+}
+
+double* write(const Frame& frame, double* out) {
+  const Quat& q = frame.rotation;
+  for (const double number : {frame.at.x(), frame.at.y(), frame.at.z(), q.w(), q.x(), q.y(), q.z()}) *out++ = number;
+  return out;
+}
+
+}  // namespace
+
+BatchWorker::BatchWorker(const Batch& batch)
+    : batch_(batch),
+      layout_(batch.layout_),
+      lanes_(batch.kernel_->lanes),
+      problem_(batch.nominal_),
+      numbers_(layout_.parameter_count()),
+      state_(lanes_),
+      parameters_(array(layout_.parameter_count())),
+      deferred_(array(1)),
+      frames_(array(7 * layout_.node_count())),
+      wrenches_(array(BatchBlocks::wrench * layout_.segment_count())),
+      reactions_(array(6 * layout_.held_count())),
+      size_(array(1)),
+      positive_(array(1)),
+      scratch_(array(batch.kernel_->scratch_size(layout_.structure(), layout_.held_count(), layout_.slot_count()))) {}
+
+BatchWorker::Array BatchWorker::array(std::size_t numbers_a_lane) const {
+  const std::size_t bytes = (std::max<std::size_t>(1, numbers_a_lane) * lanes_ * sizeof(double) + 63) / 64 * 64;
+  Array array(static_cast<double*>(std::aligned_alloc(64, bytes)));
+  if (!array) throw std::bad_alloc();
+  std::fill_n(array.get(), bytes / sizeof(double), 0.0);
+  return array;
+}
+
+void BatchWorker::spread(const std::vector<double>& numbers, double* to, int lane) const {
+  for (std::size_t i = 0; i < numbers.size(); ++i) to[i * lanes_ + lane] = numbers[i];
+}
+
+/// An idle lane iterates at the nominal equilibrium, where nothing can go wrong.
+void BatchWorker::rest(int lane) {
+  state_[lane].outcome = -1;
+  spread(batch_.parameters_, parameters_.get(), lane);
+  spread(batch_.frames_, frames_.get(), lane);
+  spread(batch_.wrenches_, wrenches_.get(), lane);
+  deferred_[lane] = 0;
+}
+
+/// Puts the next outcome that fits into the lane; false when there is none left.
+bool BatchWorker::take_outcome(int lane) {
+  while (!stopped_) {
+    if (const auto stop = work_->context.stop()) {
+      stopped_ = true;
+      break;
+    }
+    const int outcome = work_->next.fetch_add(1, std::memory_order_relaxed);
+    if (outcome >= work_->results.size()) break;
+    work_->fill(outcome, problem_);
+    if (!layout_.read(problem_, numbers_.data())) {
+      solve_scalar(outcome, 0);
+      continue;
+    }
+    spread(numbers_, parameters_.get(), lane);
+    spread(batch_.frames_, frames_.get(), lane);
+    spread(batch_.wrenches_, wrenches_.get(), lane);
+    deferred_[lane] = 1;
+    state_[lane] = {outcome, 0, 0, INFINITY, settled_step};
+    return true;
+  }
+  rest(lane);
+  return false;
+}
+
+BatchLanes BatchWorker::pack() const {
+  return {parameters_.get(), deferred_.get(), frames_.get(),   wrenches_.get(),
+          reactions_.get(),  size_.get(),     positive_.get(), scratch_.get()};
+}
+
+void BatchWorker::refine(std::vector<double>& frames, std::vector<double>& wrenches) {
+  const BatchStructure structure = layout_.structure();
+  for (int lane = 0; lane < lanes_; ++lane) rest(lane);
+  for (int i = 0; i < refining_iterations; ++i) {
+    batch_.kernel_->iterate(structure, pack());
+    if (!(positive_[0] > 0 && size_[0] <= refining_step))
+      throw UsageError("batch: the frames given are not a stable equilibrium of the nominal problem");
+  }
+  for (std::size_t i = 0; i < frames.size(); ++i) frames[i] = frames_[i * lanes_];
+  for (std::size_t i = 0; i < wrenches.size(); ++i) wrenches[i] = wrenches_[i * lanes_];
+}
+
+void BatchWorker::run() {
+  int busy = 0;
+  for (int lane = 0; lane < lanes_; ++lane) busy += take_outcome(lane);
+  const BatchStructure structure = layout_.structure();
+  const BatchLanes lanes = pack();
+  while (busy > 0) {
+    if (const auto stop = work_->context.stop()) break;
+    batch_.kernel_->iterate(structure, lanes);
+    busy = 0;
+    for (int lane = 0; lane < lanes_; ++lane) {
+      if (state_[lane].outcome >= 0) judge(lane);
+      busy += state_[lane].outcome >= 0;
+    }
+  }
+}
+
+/// After a full step of this size: is what is left below the tolerance? As in Newton's own test.
+bool BatchWorker::settled(Lane& lane, double size) const {
+  double left = size;
+  if (size < quadratic_regime && lane.previous_size < 10 * quadratic_regime)
+    left = 10 * size * size * size / (lane.previous_size * lane.previous_size) + 0.3 * size * lane.previous_size;
+  lane.not_shrinking = size < settled_step && size > 0.5 * lane.smallest_size ? lane.not_shrinking + 1 : 0;
+  lane.smallest_size = std::min(lane.smallest_size, size);
+  return std::min(size, left) < batch_.options_.tolerance || lane.not_shrinking == settled_rounds;
+}
+
+void BatchWorker::judge(int index) {
+  Lane& lane = state_[index];
+  ++lane.iterations;
+  const double size = size_[index];
+  const bool sound = positive_[index] > 0 && size <= largest_step;
+  if (sound && deferred_[index] == 0 && settled(lane, size)) {
+    keep(index);
+    take_outcome(index);
+    return;
+  }
+  if (!sound || lane.iterations >= most_iterations) {
+    const Lane failed = lane;
+    rest(index);
+    solve_scalar(failed.outcome, failed.iterations);
+    take_outcome(index);
+    return;
+  }
+  const bool rough = size > rough_step || 0.5 * size * size * layout_.stretch_stiffness() > rough_stretch;
+  deferred_[index] = rough ? 1 : 0;
+  lane.previous_size = size;
+}
+
+/// Writes the frames of all vertices and branch points from arrays with `stride` numbers a value.
+void BatchWorker::write_frames(const double* frames, const double* parameters, int stride, int lane, double* out) const {
+  for (int k = 0; k < layout_.rods(); ++k)
+    for (int v = 0; v < layout_.vertices(k); ++v) {
+      const BatchLayout::Vertex vertex = layout_.vertex(k, v);
+      const Frame node = frame_at(frames, 7 * vertex.node, stride, lane);
+      out = write(vertex.joint < 0 ? node : node * frame_at(parameters, vertex.joint, stride, lane), out);
+    }
+  for (int b = 0; b < work_->results.branches(); ++b)
+    out = write(frame_at(frames, 7 * layout_.branch_node(b), stride, lane), out);
+}
+
+void BatchWorker::keep(int index) {
+  const Lane& lane = state_[index];
+  work_->results.outcomes_[lane.outcome] = {Status::solved, lane.iterations, size_[index], false};
+  write_frames(frames_.get(), parameters_.get(), lanes_, index, work_->results.frames_of(lane.outcome));
+  double* out = work_->results.reactions_of(lane.outcome);
+  for (int k = 0; k < layout_.rods(); ++k)
+    for (int h = 0; h < work_->results.holds(k); ++h, out += 6) {
+      const int node = layout_.vertex(k, layout_.hold_vertex(k, h)).node;
+      const int held = layout_.node(node).held_index;
+      auto number = [&](int i) { return reactions_[(6 * held + i) * lanes_ + index]; };
+      const Vec3 moment = frame_at(frames_.get(), 7 * node, lanes_, index).rotation * Vec3(number(3), number(4), number(5));
+      const Hold& hold = batch_.nominal_.rods[k].holds[h];
+      for (int i = 0; i < 3; ++i) {
+        out[i] = hold.position ? number(i) : 0;
+        out[3 + i] = hold.orientation ? moment[i] : 0;
+      }
+    }
+}
+
+/// The fallback: the outcome's own numbers again, and the scalar solver from the nominal equilibrium, then from scratch.
+void BatchWorker::solve_scalar(int outcome, int iterations) {
+  work_->fill(outcome, problem_);
+  ScalarAnswer answer = tendril::solve_scalar(problem_, batch_.options_, work_->context);
+  work_->results.outcomes_[outcome] = {answer.status, iterations + answer.iterations, answer.last_step, true};
+  if (!answer.message.empty()) {
+    const std::lock_guard lock(work_->guard);
+    work_->results.messages_[outcome] = answer.message;
+  }
+  double* out = work_->results.frames_of(outcome);
+  if (answer.at.vertices.empty()) write_frames(batch_.frames_.data(), batch_.parameters_.data(), 1, 0, out);
+  for (std::size_t k = 0; k < answer.at.vertices.size(); ++k)
+    for (int v = 0; v < layout_.vertices(static_cast<int>(k)); ++v) out = write(answer.at.vertices[k][v], out);
+  for (const Frame& frame : answer.at.branches) out = write(frame, out);
+  out = work_->results.reactions_of(outcome);
+  for (const BatchResults::Support& support : answer.reactions)
+    for (const Vec3& v : {support.force, support.moment})
+      for (int i = 0; i < 3; ++i) *out++ = v[i];
+}
+
+}  // namespace tendril

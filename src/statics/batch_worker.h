@@ -1,0 +1,69 @@
+// One thread's share of a batch: lanes that take the next outcome as soon as they are done with one.
+#pragma once
+
+#include <atomic>
+#include <cstdlib>
+#include <memory>
+#include <mutex>
+
+#include "statics/batch.h"
+
+namespace tendril {
+
+class BatchWorker {
+ public:
+  /// What all workers of one batch share.
+  struct Work {
+    const Batch::Fill& fill;
+    BatchResults& results;
+    std::atomic<int>& next;  ///< the first outcome that nobody has taken
+    std::mutex& guard;       ///< of the messages
+    const RunContext& context;
+  };
+
+  explicit BatchWorker(const Batch& batch);
+  BatchWorker(const Batch& batch, const Work& work) : BatchWorker(batch) { work_ = &work; }
+
+  /// Solves outcomes until none is left.
+  void run();
+
+  /// Newton's iteration of the nominal problem itself from frames close to its equilibrium: the exact frames, and the
+  /// wrenches there.
+  void refine(std::vector<double>& frames, std::vector<double>& wrenches);
+
+ private:
+  /// How the outcome in one lane stands.
+  struct Lane {
+    int outcome = -1;
+    int iterations = 0;
+    int not_shrinking = 0;
+    double previous_size = 0, smallest_size = 0;
+  };
+  struct Free {
+    void operator()(double* p) const { std::free(p); }
+  };
+  using Array = std::unique_ptr<double[], Free>;
+  Array array(std::size_t numbers_a_lane) const;
+
+  BatchLanes pack() const;
+  bool take_outcome(int lane);
+  void rest(int lane);
+  void judge(int lane);
+  bool settled(Lane& lane, double size) const;
+  void keep(int lane);
+  void write_frames(const double* frames, const double* parameters, int stride, int lane, double* out) const;
+  void solve_scalar(int outcome, int iterations);
+  void spread(const std::vector<double>& numbers, double* to, int lane) const;
+
+  const Batch& batch_;
+  const BatchLayout& layout_;
+  const Work* work_ = nullptr;
+  const int lanes_;
+  SystemProblem problem_;
+  std::vector<double> numbers_;
+  std::vector<Lane> state_;
+  Array parameters_, deferred_, frames_, wrenches_, reactions_, size_, positive_, scratch_;
+  bool stopped_ = false;
+};
+
+}  // namespace tendril
