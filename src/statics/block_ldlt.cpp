@@ -1,5 +1,6 @@
 #include "statics/block_ldlt.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace tendril {
@@ -9,112 +10,197 @@ inline Pack broadcast(double x) { return Pack{x, x, x, x}; }
 
 }  // namespace
 
+BlockLdlt::BlockLdlt(const BlockPattern& pattern) : order_(pattern) {
+  const auto& columns = order_.columns();
+  blocks_.resize(columns.size());
+  scaled_.resize(order_.links().size());
+  int most_links = 1;
+  bool filled = false, links_filled = false;
+  for (const auto& column : columns) {
+    most_links = std::max(most_links, column.links_end - column.links_begin);
+    filled = filled || column.filled;
+  }
+  for (const auto& link : order_.links()) links_filled = links_filled || link.filled;
+  if (filled) added_.resize(columns.size());
+  if (links_filled) added_to_link_.resize(order_.links().size());
+  work_.resize(most_links);
+}
+
+/// Rows of the Schur complement, right-hand side in column 6.
+void BlockLdlt::start_diagonal(const BlockSystem& system, const Elimination::Column& column, Row (&diagonal)[6]) const {
+  for (int r = 0; r < 6; ++r) {
+    const double* d = system.diagonal[column.node].data() + 6 * r;
+    diagonal[r] = {Pack{d[0], d[1], d[2], d[3]}, Pack{d[4], d[5], system.gradient[column.node][r], 0}};
+  }
+}
+
+void BlockLdlt::start_link(const BlockSystem& system, int index, const Row (&diagonal)[6], Rows& upper) const {
+  const Elimination::Link& link = order_.links()[index];
+  for (int r = 0; r < 6; ++r) upper.row[r] = {Pack{}, Pack{0, 0, diagonal[r].high[2], 0}};
+  for (int k = link.sources_begin; k < link.sources_end; ++k) {
+    const Elimination::Source& source = order_.sources()[k];
+    const double* block = system.upper[source.edge].data();
+    const int down = source.transposed ? 6 : 1, across = source.transposed ? 1 : 6;
+    for (int r = 0; r < 6; ++r) {
+      const double* u = block + r * down;
+      upper.row[r].low += Pack{u[0], u[across], u[2 * across], u[3 * across]};
+      upper.row[r].high += Pack{u[4 * across], u[5 * across], 0, 0};
+    }
+  }
+  if (!link.filled) return;
+  for (int r = 0; r < 6; ++r) {
+    upper.row[r].low += added_to_link_[index].row[r].low;
+    upper.row[r].high += added_to_link_[index].row[r].high;
+  }
+}
+
+/// Gaussian elimination on the rows (Schur complement | upper blocks, right-hand side).
+inline void BlockLdlt::eliminate(Block& block, Row (&diagonal)[6], Rows* upper, int links, int& not_positive) {
+#pragma GCC unroll 6
+  for (int k = 0; k < 6; ++k) {
+    const double pivot = k < 4 ? diagonal[k].low[k] : diagonal[k].high[k - 4];
+    if (!(pivot > 0)) {
+      ++not_positive;
+      if (pivot == 0 || std::isnan(pivot)) broken_ = true;
+    }
+    const double inverse = 1 / pivot;
+    block.inverse[k] = inverse;
+#pragma GCC unroll 6
+    for (int r = k + 1; r < 6; ++r) {
+      const double l = (k < 4 ? diagonal[r].low[k] : diagonal[r].high[k - 4]) * inverse;
+      block.lower[r][k] = l;
+      const Pack wide = broadcast(l);
+      diagonal[r].low -= wide * diagonal[k].low;
+      diagonal[r].high -= wide * diagonal[k].high;
+      for (int link = 0; link < links; ++link) {
+        upper[link].row[r].low -= wide * upper[link].row[k].low;
+        upper[link].row[r].high -= wide * upper[link].row[k].high;
+      }
+    }
+  }
+#pragma GCC unroll 6
+  for (int k = 0; k < 6; ++k) block.right[k] = diagonal[k].high[2] * block.inverse[k];
+}
+
+/// What the elimination at `position` takes from the blocks of the later nodes that it is coupled with. `next`: the rows of
+/// the position after it, when that one is carried.
+void BlockLdlt::pass_on(const BlockSystem& system, int position, const Rows* upper, Row (&next)[6]) {
+  const Elimination::Column& column = order_.columns()[position];
+  for (int a = column.links_begin; a < column.links_end; ++a) {
+    const Rows& from = upper[a - column.links_begin];
+    const int target = order_.links()[a].target;
+    for (int b = a; b < column.links_end; ++b) {
+      Row* to;
+      if (a != b) {
+        to = added_to_link_[order_.link_between(target, order_.links()[b].target)].row;
+      } else if (order_.columns()[target].carried) {
+        start_diagonal(system, order_.columns()[target], next);
+        to = next;
+      } else {
+        to = added_[target].row;
+      }
+      const Rows& scaled = scaled_[b];
+#pragma GCC unroll 6
+      for (int r = 0; r < 6; ++r) {
+        Pack low = to[r].low, high = to[r].high;
+#pragma GCC unroll 6
+        for (int k = 0; k < 6; ++k) {
+          const Pack wide = broadcast(r < 4 ? from.row[k].low[r] : from.row[k].high[r - 4]);
+          low -= wide * scaled.row[k].low;
+          high -= wide * scaled.row[k].high;
+        }
+        // The right-hand side goes with the diagonal alone.
+        if (a != b) high[2] = 0;
+        to[r] = {low, high};
+      }
+    }
+  }
+}
+
 int BlockLdlt::factor(const BlockSystem& system) {
-  const int n = system.vertices();
-  blocks_.resize(n);
+  const auto& columns = order_.columns();
+  const int n = static_cast<int>(columns.size());
   broken_ = false;
   int not_positive = 0;
-  Row diagonal[6];  // rows of the current block's Schur complement, right-hand side in column 6
-  for (int r = 0; r < 6; ++r) {
-    const double* d = system.diagonal[0].data() + 6 * r;
-    diagonal[r] = {Pack{d[0], d[1], d[2], d[3]}, Pack{d[4], d[5], system.gradient[0][r], 0}};
-  }
-  for (int i = 0; i < n; ++i) {
-    Block& block = blocks_[i];
-    Row upper[6];
-    const bool last = i + 1 == n;
-    for (int r = 0; r < 6; ++r) {
-      if (last) {
-        upper[r] = {Pack{}, Pack{0, 0, diagonal[r].high[2], 0}};
-        continue;
+  if (!added_.empty()) std::fill(added_.begin(), added_.end(), Rows{});
+  if (!added_to_link_.empty()) std::fill(added_to_link_.begin(), added_to_link_.end(), Rows{});
+  Row diagonal[6];
+  for (int p = 0; p < n; ++p) {
+    const Elimination::Column& column = columns[p];
+    if (!column.carried) start_diagonal(system, column, diagonal);
+    if (column.filled)
+      for (int r = 0; r < 6; ++r) {
+        diagonal[r].low += added_[p].row[r].low;
+        diagonal[r].high += added_[p].row[r].high;
       }
-      const double* u = system.upper[i].data() + r;
-      upper[r] = {Pack{u[0], u[6], u[12], u[18]}, Pack{u[24], u[30], diagonal[r].high[2], 0}};
-    }
-    // Gaussian elimination on the rows (Schur complement | upper block, right-hand side).
-#pragma GCC unroll 6
-    for (int k = 0; k < 6; ++k) {
-      const double pivot = k < 4 ? diagonal[k].low[k] : diagonal[k].high[k - 4];
-      if (!(pivot > 0)) {
-        ++not_positive;
-        if (pivot == 0 || std::isnan(pivot)) broken_ = true;
-      }
-      const double inverse = 1 / pivot;
-      block.inverse[k] = inverse;
-#pragma GCC unroll 6
-      for (int r = k + 1; r < 6; ++r) {
-        const double l = (k < 4 ? diagonal[r].low[k] : diagonal[r].high[k - 4]) * inverse;
-        block.lower[r][k] = l;
-        const Pack wide = broadcast(l);
-        diagonal[r].low -= wide * diagonal[k].low;
-        diagonal[r].high -= wide * diagonal[k].high;
-        upper[r].low -= wide * upper[k].low;
-        upper[r].high -= wide * upper[k].high;
-      }
-    }
-#pragma GCC unroll 6
-    for (int k = 0; k < 6; ++k) {
-      const Pack wide = broadcast(block.inverse[k]);
-      block.row[k] = {wide * upper[k].low, wide * upper[k].high};
-    }
-    if (last) break;
-    const double* d = system.diagonal[i + 1].data();
-#pragma GCC unroll 6
-    for (int r = 0; r < 6; ++r) {
-      Pack low = Pack{d[6 * r], d[6 * r + 1], d[6 * r + 2], d[6 * r + 3]};
-      Pack high = Pack{d[6 * r + 4], d[6 * r + 5], system.gradient[i + 1][r], 0};
+    const int links = column.links_end - column.links_begin;
+    for (int k = 0; k < links; ++k) start_link(system, column.links_begin + k, diagonal, work_[k]);
+    Block& block = blocks_[p];
+    if (links == 1)
+      eliminate(block, diagonal, work_.data(), 1, not_positive);
+    else
+      eliminate(block, diagonal, work_.data(), links, not_positive);
+    for (int link = 0; link < links; ++link)
 #pragma GCC unroll 6
       for (int k = 0; k < 6; ++k) {
-        const Pack wide = broadcast(r < 4 ? upper[k].low[r] : upper[k].high[r - 4]);
-        low -= wide * block.row[k].low;
-        high -= wide * block.row[k].high;
+        const Pack wide = broadcast(block.inverse[k]);
+        Rows& scaled = scaled_[column.links_begin + link];
+        scaled.row[k] = {wide * work_[link].row[k].low, wide * work_[link].row[k].high};
       }
-      diagonal[r] = {low, high};
-    }
+    pass_on(system, p, work_.data(), diagonal);
   }
   return not_positive;
 }
 
 void BlockLdlt::newton_step(std::vector<Vec6>& step) const {
-  const int n = static_cast<int>(blocks_.size());
-  step.resize(n);
-  Pack low{}, high{};  // the solution of the block behind: x0..x3; x4, x5, -1, 0 so that the right-hand side joins in
-  high[2] = -1;
-  for (int i = n - 1; i >= 0; --i) {
-    const Block& block = blocks_[i];
+  const auto& columns = order_.columns();
+  step.resize(columns.size());
+  for (int p = static_cast<int>(columns.size()) - 1; p >= 0; --p) {
+    const Block& block = blocks_[p];
+    const Elimination::Column& column = columns[p];
     double x[6];
-    for (int k = 0; k < 6; ++k) {
-      const Pack sum = block.row[k].low * low + block.row[k].high * high;
-      x[k] = -((sum[0] + sum[2]) + (sum[1] + sum[3]));
+    for (int k = 0; k < 6; ++k) x[k] = block.right[k];
+    for (int link = column.links_begin; link < column.links_end; ++link) {
+      // The right-hand side in column 6 of the rows meets a zero: it is in `right` already.
+      const Vec6& other = step[columns[order_.links()[link].target].node];
+      const Pack low{other[0], other[1], other[2], other[3]}, high{other[4], other[5], 0, 0};
+      for (int k = 0; k < 6; ++k) {
+        const Pack sum = scaled_[link].row[k].low * low + scaled_[link].row[k].high * high;
+        x[k] += (sum[0] + sum[2]) + (sum[1] + sum[3]);
+      }
     }
     for (int k = 4; k >= 0; --k)
       for (int r = k + 1; r < 6; ++r) x[k] -= block.lower[r][k] * x[r];
-    for (int k = 0; k < 6; ++k) step[i][k] = -x[k];
-    low = Pack{x[0], x[1], x[2], x[3]};
-    high = Pack{x[4], x[5], -1, 0};
+    for (int k = 0; k < 6; ++k) step[column.node][k] = -x[k];
   }
 }
 
 void BlockLdlt::solve(std::vector<Vec6>& x) const {
-  const int n = static_cast<int>(blocks_.size());
-  for (int i = 0; i < n; ++i) {
-    const Block& block = blocks_[i];
+  const auto& columns = order_.columns();
+  const int n = static_cast<int>(columns.size());
+  const auto coefficient = [](const Row& row, int c) { return c < 4 ? row.low[c] : row.high[c - 4]; };
+  for (int p = 0; p < n; ++p) {
+    const Block& block = blocks_[p];
+    Vec6& here = x[columns[p].node];
     for (int k = 0; k < 6; ++k)
-      for (int r = k + 1; r < 6; ++r) x[i][r] -= block.lower[r][k] * x[i][k];
-    if (i + 1 < n)
+      for (int r = k + 1; r < 6; ++r) here[r] -= block.lower[r][k] * here[k];
+    for (int link = columns[p].links_begin; link < columns[p].links_end; ++link) {
+      Vec6& other = x[columns[order_.links()[link].target].node];
       for (int k = 0; k < 6; ++k)
-        for (int c = 0; c < 6; ++c)
-          x[i + 1][c] -= (c < 4 ? block.row[k].low[c] : block.row[k].high[c - 4]) * x[i][k];
-    for (int k = 0; k < 6; ++k) x[i][k] *= block.inverse[k];
+        for (int c = 0; c < 6; ++c) other[c] -= coefficient(scaled_[link].row[k], c) * here[k];
+    }
+    for (int k = 0; k < 6; ++k) here[k] *= block.inverse[k];
   }
-  for (int i = n - 1; i >= 0; --i) {
-    const Block& block = blocks_[i];
-    if (i + 1 < n)
+  for (int p = n - 1; p >= 0; --p) {
+    const Block& block = blocks_[p];
+    Vec6& here = x[columns[p].node];
+    for (int link = columns[p].links_begin; link < columns[p].links_end; ++link) {
+      const Vec6& other = x[columns[order_.links()[link].target].node];
       for (int k = 0; k < 6; ++k)
-        for (int c = 0; c < 6; ++c)
-          x[i][k] -= (c < 4 ? block.row[k].low[c] : block.row[k].high[c - 4]) * x[i + 1][c];
+        for (int c = 0; c < 6; ++c) here[k] -= coefficient(scaled_[link].row[k], c) * other[c];
+    }
     for (int k = 4; k >= 0; --k)
-      for (int r = k + 1; r < 6; ++r) x[i][k] -= block.lower[r][k] * x[i][r];
+      for (int r = k + 1; r < 6; ++r) here[k] -= block.lower[r][k] * here[r];
   }
 }
 

@@ -1,16 +1,18 @@
-// LDL^T of a 6x6 block tridiagonal symmetric matrix, without pivoting and, once sized, without allocation.
+// LDL^T of a sparse symmetric matrix of 6x6 blocks, without pivoting and, once sized, without allocation.
 #pragma once
 
 #include <vector>
 
 #include "rod/lanes.h"
-#include "statics/block_system.h"
+#include "statics/elimination.h"
 
 namespace tendril {
 
-/// Factorises and solves in one sweep along the rod. The signs of D are the matrix's inertia.
+/// Factorises and solves in the order of an Elimination. The signs of D are the matrix's inertia.
 class BlockLdlt {
  public:
+  explicit BlockLdlt(const BlockPattern& pattern);
+
   /// Factorises and forward-eliminates the gradient in the same sweep. Returns the number of pivots that are not
   /// positive: zero means positive definite. The factor is usable unless `broken()`.
   int factor(const BlockSystem& system);
@@ -28,13 +30,26 @@ class BlockLdlt {
   struct Row {
     Pack low, high;  // columns 0-3; columns 4, 5, the right-hand side, nothing
   };
+  struct Rows {
+    Row row[6];
+  };
   struct Block {
-    Row row[6];        // D^-1 L^-1 (upper block | right-hand side)
     double lower[6][6];  // unit lower triangle
     double inverse[6];   // 1/D
+    double right[6];     // D^-1 L^-1 right-hand side
   };
 
-  std::vector<Block> blocks_;
+  void start_diagonal(const BlockSystem& system, const Elimination::Column& column, Row (&diagonal)[6]) const;
+  void start_link(const BlockSystem& system, int link, const Row (&diagonal)[6], Rows& upper) const;
+  void eliminate(Block& block, Row (&diagonal)[6], Rows* upper, int links, int& not_positive);
+  void pass_on(const BlockSystem& system, int position, const Rows* upper, Row (&next)[6]);
+
+  Elimination order_;
+  std::vector<Block> blocks_;   // by position
+  std::vector<Rows> scaled_;    // by link: D^-1 L^-1 (upper block | right-hand side)
+  std::vector<Rows> added_;     // by position: what earlier eliminations add to the diagonal; where filled
+  std::vector<Rows> added_to_link_;
+  std::vector<Rows> work_;      // the upper blocks of the column at work
   bool broken_ = false;
 };
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "base/error.h"
 #include "statics/contact_start.h"
 
 namespace tendril {
@@ -30,8 +31,15 @@ double overlap_under(const ContactLaw& law, double force) {
 
 }  // namespace
 
-ContactSolver::ContactSolver(RodSystem& system, const SolveOptions& options, const ContactOptions& contact)
-    : system_(&system), options_(options), contact_(contact), terms_(system, options.element), newton_(system, &terms_) {
+ContactSolver::ContactSolver(RodNetwork& network, const SolveOptions& options, const ContactOptions& contact)
+    : network_(&network),
+      system_(&network.rod(0)),
+      options_(options),
+      contact_(contact),
+      terms_(*system_, options.element),
+      newton_(network, &terms_) {
+  if (network.rods() > 1) throw UsageError("rods at branch points do not feel obstacles");
+  const RodSystem& system = *system_;
   const RodProblem& problem = system.problem();
   radius_ = problem.rod.largest_radius();
   for (const RodPart& part : problem.rod.parts) radius_ = std::min(radius_, part.section.radius());

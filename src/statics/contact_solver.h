@@ -32,8 +32,8 @@ struct ContactOutcome {
 
 class ContactSolver {
  public:
-  /// The problem of `system` must have surroundings.
-  ContactSolver(RodSystem& system, const SolveOptions& options, const ContactOptions& contact = {});
+  /// The problem of `network`, one rod, must have surroundings.
+  ContactSolver(RodNetwork& network, const SolveOptions& options, const ContactOptions& contact = {});
 
   /// Where a cold start begins: the first guess, changed where it would cross the surroundings (contact_start.h).
   RodState clear_start();
@@ -64,6 +64,7 @@ class ContactSolver {
   bool over(const ContactOutcome& out) const;
   std::string place_of(int point) const;
 
+  RodNetwork* network_;
   RodSystem* system_;
   SolveOptions options_;
   ContactOptions contact_;

@@ -67,7 +67,7 @@ struct Equilibrium {
   std::vector<Vec3> curvatures;      ///< per segment: Omega in the section frame, 1/m
   std::vector<Vec3> curvature_changes;  ///< per segment: Omega - Omega0, 1/m
   std::vector<Vec3> moments;         ///< per segment: internal moment m at mid-segment, section frame, N m
-  std::vector<Reaction> reactions;   ///< one per hold, in the problem's order
+  std::vector<Reaction> reactions;   ///< one per hold, in the problem's order, then one per branch point that it belongs to
   std::vector<ContactForce> contacts;
   double deepest_penetration = 0;    ///< m, 0 without contact
 
@@ -87,6 +87,21 @@ struct Equilibrium {
   double settled_length() const;        ///< m, of the deformed centre line
   std::vector<double> radii;            ///< per segment: section radius, m
   std::vector<double> bend_radii() const;  ///< per vertex, m
+};
+
+/// Rods that were solved together. Status, message and counts are the same for all of them.
+struct SystemEquilibrium {
+  std::vector<Equilibrium> rods;          ///< in the problem's order
+  std::vector<Frame> branches;            ///< where the branch points are
+  std::vector<Reaction> branch_supports;  ///< what holds them, about their places; zero but for rounding where they are free
+
+  bool ok() const { return !rods.empty() && rods.front().ok(); }
+  /// Has shapes to start from.
+  bool complete() const {
+    for (const Equilibrium& rod : rods)
+      if (rod.s.empty()) return false;
+    return !rods.empty();
+  }
 };
 
 }  // namespace tendril

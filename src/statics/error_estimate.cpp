@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <optional>
 
-#include "statics/solver.h"
+#include "statics/network_solver.h"
 
 namespace tendril {
 namespace {
@@ -70,25 +70,10 @@ double lowest_order(const RodProblem& problem, const SolveOptions& options) {
   return options.element == Element::se3 ? 1.8 : 0.6 * own_order(options) - 0.2;
 }
 
-}  // namespace
-
-ErrorEstimate estimate_error(const RodProblem& problem, const SolveOptions& options, const RunContext& context,
-                             const Equilibrium& solution) {
+/// From one rod on three meshes.
+ErrorEstimate compare(const RodProblem& problem, const SolveOptions& options, const std::optional<SpinAxis>& axis,
+                      const Equilibrium& solution, const Equilibrium& finer, const Equilibrium& finest) {
   ErrorEstimate estimate;
-  SolveOptions plain = options;
-  plain.error = false;
-  plain.tolerance = std::min(1e-12, options.tolerance);  // differences of meshes must not drown in unfinished iterations
-  RodSolver twice(problem, plain, problem.rod.segments, 2), four_times(problem, plain, problem.rod.segments, 4);
-  // In contact a warm start would carry the contact forces over, and with them the error that is looked for.
-  const bool warm = !problem.surroundings;
-  const Equilibrium finer = twice.solve(context, warm ? &solution : nullptr);
-  const Equilibrium finest = four_times.solve(context, !warm ? nullptr : finer.ok() ? &finer : &solution);
-  if (!finer.ok() || !finest.ok()) {
-    estimate.why = "the finer meshes were not solved: " + (finer.ok() ? finest : finer).message;
-    estimate.value = solution.s.back();
-    return estimate;
-  }
-  const std::optional<SpinAxis> axis = spin_axis(problem);
   const double first = largest_difference(solution, finer, axis), second = largest_difference(finer, finest, axis);
   const double expected = own_order(options), length = solution.s.back();
   const double rounding = 1e-11 * length;
@@ -112,6 +97,37 @@ ErrorEstimate estimate_error(const RodProblem& problem, const SolveOptions& opti
     estimate.why = text;
   }
   return estimate;
+}
+
+bool any_surroundings(const SystemProblem& problem) {
+  return std::any_of(problem.rods.begin(), problem.rods.end(), [](const RodProblem& rod) { return rod.surroundings; });
+}
+
+}  // namespace
+
+void estimate_errors(const SystemProblem& problem, const SolveOptions& options, const RunContext& context,
+                     SystemEquilibrium& solution) {
+  SolveOptions plain = options;
+  plain.error = false;
+  plain.tolerance = std::min(1e-12, options.tolerance);  // differences of meshes must not drown in unfinished iterations
+  NetworkSolver twice(problem, plain, 2), four_times(problem, plain, 4);
+  // In contact a warm start would carry the contact forces over, and with them the error that is looked for.
+  const bool warm = !any_surroundings(problem);
+  const SystemEquilibrium finer = twice.solve(context, warm ? &solution : nullptr);
+  const SystemEquilibrium finest = four_times.solve(context, !warm ? nullptr : finer.ok() ? &finer : &solution);
+  for (std::size_t k = 0; k < solution.rods.size(); ++k) {
+    Equilibrium& rod = solution.rods[k];
+    if (!finer.ok() || !finest.ok()) {
+      ErrorEstimate estimate;
+      estimate.why = "the finer meshes were not solved: " + (finer.ok() ? finest : finer).rods[k].message;
+      estimate.value = rod.s.back();
+      rod.error = estimate;
+      continue;
+    }
+    const bool alone = solution.rods.size() == 1;
+    rod.error = compare(problem.rods[k], options, alone ? spin_axis(problem.rods[k]) : std::nullopt, rod, finer.rods[k],
+                        finest.rods[k]);
+  }
 }
 
 }  // namespace tendril

@@ -22,12 +22,13 @@ constexpr double blocked_share = 0.3;      // of a step; the guards left less
 
 void Newton::assemble(const RodState& state) {
   auto all_terms = [&] {
-    energy_ = system_.assemble(state, stress_, linear_.block);
+    energy_ = network_.assemble(state, stress_, linear_.block);
     if (further_) energy_ += further_->assemble(state, stress_, linear_.block);
+    network_.join(state, stress_, linear_.block);
   };
   all_terms();
-  if (stress_ != Stress::predicted || system_.false_stress() <= rough_stress) return;
-  stress_ = system_.stretch_stiffness() > stiff_stretch ? Stress::deferred : Stress::rough;
+  if (stress_ != Stress::predicted || network_.false_stress() <= rough_stress) return;
+  stress_ = network_.stretch_stiffness() > stiff_stretch ? Stress::deferred : Stress::rough;
   all_terms();
 }
 
@@ -45,19 +46,19 @@ std::optional<double> Newton::guarded_share(const RodState& state, double share)
 }
 
 double Newton::energy_at(const RodState& state) {
-  const double energy = system_.gradient(state, scratch_);
+  const double energy = network_.gradient(state, scratch_);
   return further_ ? energy + further_->energy(state) : energy;
 }
 
 double Newton::armijo_share(const RodState& state, double share) {
   double slope = 0, moment_work = 0;
-  for (int i = 0; i < system_.nodes(); ++i) slope += linear_.block.gradient[i].dot(step_[i]);
-  for (const RodSystem::MomentTerm& term : system_.moment_terms(state))
+  for (int i = 0; i < network_.nodes(); ++i) slope += linear_.block.gradient[i].dot(step_[i]);
+  for (const RodSystem::MomentTerm& term : network_.moment_terms(state))
     moment_work += term.body_moment.dot(Vec3(step_[term.node].tail<3>()));
   const double rounding = 1e-13 * (std::abs(energy_) + std::abs(slope));
   for (int half = 0; half < 30; ++half, share *= 0.5) {
     RodState trial = state;
-    trial.apply(step_, share);
+    network_.apply(trial, step_, share);
     const double change = energy_at(trial) - energy_ - share * moment_work;
     if (change <= 1e-4 * share * std::min(slope, 0.0) + rounding) return share;
   }
@@ -83,11 +84,11 @@ bool Newton::settled(double size, const NewtonOptions& options) {
 
 void Newton::leave_saddle(RodState& state) {
   ++mode_moves_;
-  step_ = linear_.softest_mode();
-  const double size = linear_.size_of(step_);
+  step_ = linear_.softest_mode(state);
+  const double size = network_.size_of(step_);
   if (!std::isfinite(size) || size == 0) return;
   const double share = mode_step / size;
-  state.apply(step_, further_ ? further_->allowed(state, step_, share) : share);
+  network_.apply(state, step_, further_ ? further_->allowed(state, step_, share) : share);
 }
 
 NewtonOutcome Newton::run(RodState& state, const NewtonOptions& options, const RunContext& context) {
@@ -107,21 +108,21 @@ NewtonOutcome Newton::run(RodState& state, const NewtonOptions& options, const R
     out.negative_pivots = linear_.factor(options.stable_only, out.iterations);
     if (linear_.broken()) return out;
     linear_.solve(state, step_);
-    const double size = linear_.size_of(step_);
+    const double size = network_.size_of(step_);
     if (!std::isfinite(size)) return out;
 
     std::optional<double> share = guarded_share(state, std::min(1.0, largest_step / size));
     if (!share) continue;
     if (options.descend) share = descending_share(state, *share);
-    if (!options.descend) system_.predict(step_, *share);
+    if (!options.descend) network_.predict(step_, *share);
     if (further_) further_->stepped(state, step_, *share);
-    state.apply(step_, *share);
+    network_.apply(state, step_, *share);
     out.last_step = *share * size;
     if (*share == 0) return out;
 
     const bool full = *share == 1;
     const bool exact = stress_ == Stress::predicted || stress_ == Stress::actual;
-    const bool sound = out.negative_pivots == 0 || !options.stable_only || system_.has_moments();
+    const bool sound = out.negative_pivots == 0 || !options.stable_only || network_.has_moments();
     if (full && exact && sound && linear_.shift() == 0 && settled(size, options)) {
       out.status = Status::solved;
       return out;

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/run_context.h"
-#include "statics/rod_system.h"
+#include "statics/rod_network.h"
 #include "statics/step_system.h"
 
 namespace tendril {
@@ -53,7 +53,9 @@ struct NewtonOutcome {
 
 class Newton {
  public:
-  Newton(RodSystem& system, FurtherTerms* further) : system_(system), further_(further), linear_(system) {}
+  Newton(RodNetwork& network, FurtherTerms* further) : network_(network), further_(further), linear_(network) {}
+
+  const StepSystem& linear() const { return linear_; }
 
   /// Moves `state` to an equilibrium, or as far as it gets.
   NewtonOutcome run(RodState& state, const NewtonOptions& options, const RunContext& context);
@@ -67,7 +69,7 @@ class Newton {
   bool settled(double size, const NewtonOptions& options);
   void leave_saddle(RodState& state);
 
-  RodSystem& system_;
+  RodNetwork& network_;
   FurtherTerms* further_;
   StepSystem linear_;
   std::vector<Vec6> step_, scratch_;

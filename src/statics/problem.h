@@ -42,9 +42,9 @@ struct RodProblem {
   Vec3 gravity = Vec3::Zero();   ///< m/s^2; zero: the term is left out
   const ContactField* surroundings = nullptr;  ///< not owned; null: no contact term
 
-  /// Throws UsageError naming what cannot be: places outside the rod, contradictory holds, non-finite numbers, a rod
-  /// that can move as a rigid body, a weight that the rod's stretch stiffness cannot carry.
-  void check() const;
+  /// Throws UsageError naming what cannot be: places outside the rod, contradictory holds, non-finite numbers, a weight
+  /// that the rod's stretch stiffness cannot carry. `held_elsewhere`: false where nothing but its own holds keeps the rod.
+  void check(bool held_elsewhere = false) const;
 };
 
 /// A section that belongs to a branch point.
@@ -66,6 +66,10 @@ struct BranchPoint {
 struct SystemProblem {
   std::vector<RodProblem> rods;
   std::vector<BranchPoint> branches;
+
+  /// Throws UsageError as RodProblem::check() does, and for branch points that join nothing, join a section that is held or
+  /// joined elsewhere, or leave rods that nothing holds.
+  void check() const;
 };
 
 struct SolveOptions {

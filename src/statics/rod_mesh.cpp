@@ -6,12 +6,13 @@
 namespace tendril {
 namespace {
 
-std::vector<double> breaks_of(const RodProblem& problem) {
+std::vector<double> breaks_of(const RodProblem& problem, const std::vector<double>& joined) {
   const Rod& rod = problem.rod;
   std::vector<double> breaks = {0, rod.length};
   for (const Hold& hold : problem.holds) breaks.push_back(hold.at);
   for (const PointLoad& load : problem.loads) breaks.push_back(load.at);
   for (const RodPart& part : rod.parts) breaks.push_back(part.upto);
+  breaks.insert(breaks.end(), joined.begin(), joined.end());
   breaks.insert(breaks.end(), rod.shape_breaks.begin(), rod.shape_breaks.end());
   for (double& place : breaks) place = std::clamp(place, 0.0, rod.length);
   std::sort(breaks.begin(), breaks.end());
@@ -34,9 +35,9 @@ int vertex_at(const std::vector<double>& s, double place) {
 
 }  // namespace
 
-RodMesh cut_into_segments(const RodProblem& problem, int segments, int refinement) {
+RodMesh cut_into_segments(const RodProblem& problem, int segments, int refinement, const std::vector<double>& joined) {
   const Rod& rod = problem.rod;
-  const std::vector<double> breaks = breaks_of(problem);
+  const std::vector<double> breaks = breaks_of(problem, joined);
   RodMesh mesh;
   mesh.s.reserve((segments + breaks.size()) * refinement);
   mesh.s.push_back(0);
@@ -64,6 +65,7 @@ RodMesh cut_into_segments(const RodProblem& problem, int segments, int refinemen
   }
   for (const Hold& hold : problem.holds) mesh.hold_vertex.push_back(vertex_at(mesh.s, hold.at));
   for (const PointLoad& load : problem.loads) mesh.load_vertex.push_back(vertex_at(mesh.s, load.at));
+  for (const double place : joined) mesh.joint_vertex.push_back(vertex_at(mesh.s, place));
   return mesh;
 }
 

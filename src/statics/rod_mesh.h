@@ -15,19 +15,21 @@ struct MeshSegment {
   Quat to_middle;          ///< section orientation at the segment's middle seen from the start's, unstressed
 };
 
-/// Vertices lie at every hold, load, change of section and break of the reference shape; between those the segments are
+/// Vertices lie at every hold, load, joined place, change of section and break of the reference shape; between those the segments are
 /// as equal as the number asked for allows.
 struct RodMesh {
   std::vector<double> s;               ///< segments + 1
   std::vector<MeshSegment> segments;
   std::vector<int> hold_vertex;        ///< per hold of the problem
   std::vector<int> load_vertex;        ///< per load
+  std::vector<int> joint_vertex;       ///< per joined place
 
   int vertices() const { return static_cast<int>(s.size()); }
 };
 
 /// Throws nothing for a problem that passed check(). `segments`: how many to aim at; at least one between two breaks.
-/// `refinement`: each of those is cut again into so many equal ones.
-RodMesh cut_into_segments(const RodProblem& problem, int segments, int refinement = 1);
+/// `refinement`: each of those is cut again into so many equal ones. `joined`: arc lengths (m) where the rod belongs to
+/// branch points.
+RodMesh cut_into_segments(const RodProblem& problem, int segments, int refinement = 1, const std::vector<double>& joined = {});
 
 }  // namespace tendril

@@ -41,19 +41,18 @@ RodSystem::RodSystem(const RodProblem& problem, RodMesh mesh) : problem_(problem
   neutral_shift_ = std::clamp(1e-15 * stiffest / bending_scale_ * cells * cells, 1e-3, 0.1);
 }
 
-double RodSystem::assemble(const RodState& state, Stress stress, BlockSystem& system) {
-  system.resize(nodes_);
+double RodSystem::assemble(StateView state, Stress stress, BlockView system) {
   const double energy = assemble_elements(state, stress, system);
-  return energy + add_loads(state, system.gradient, &system.diagonal);
+  return energy + add_loads(state, system.gradient, system.diagonal);
 }
 
-double RodSystem::gradient(const RodState& state, std::vector<Vec6>& gradient) {
-  gradient.assign(nodes_, Vec6::Zero());
+double RodSystem::gradient(StateView state, Vec6* gradient) {
+  std::fill(gradient, gradient + nodes_, Vec6::Zero());
   const double energy = element_gradient(state, gradient);
   return energy + add_loads(state, gradient, nullptr);
 }
 
-double RodSystem::add_loads(const RodState& state, std::vector<Vec6>& gradient, std::vector<Mat6>* diagonal) const {
+double RodSystem::add_loads(StateView state, Vec6* gradient, Mat6* diagonal) const {
   double energy = 0;
   for (std::size_t i = 0; i < weight_.size(); ++i) {
     gradient[i].head<3>() -= weight_[i];
@@ -65,7 +64,7 @@ double RodSystem::add_loads(const RodState& state, std::vector<Vec6>& gradient, 
     energy += b.z();
     gradient[i].tail<3>() += Vec3(-b.y(), b.x(), 0);
     if (!diagonal) continue;
-    auto block = (*diagonal)[i].bottomRightCorner<3, 3>();
+    auto block = diagonal[i].bottomRightCorner<3, 3>();
     block(0, 0) -= b.z();
     block(1, 1) -= b.z();
     block(0, 2) += 0.5 * b.x();
@@ -82,7 +81,7 @@ double RodSystem::add_loads(const RodState& state, std::vector<Vec6>& gradient, 
   return energy;
 }
 
-void RodSystem::describe_loads(const RodState& state, Energy& energy) const {
+void RodSystem::describe_loads(StateView state, Energy& energy) const {
   for (std::size_t i = 0; i < weight_.size(); ++i) energy.gravity -= weight_[i].dot(state.r[i]);
   for (std::size_t i = 0; i < weight_slope_.size(); ++i)
     energy.gravity += weight_slope_[i].dot(state.q[i] * Vec3::UnitZ());
@@ -94,7 +93,7 @@ void RodSystem::scale_moments(double share) {
   moment_share_ = share;
 }
 
-std::vector<RodSystem::MomentTerm> RodSystem::moment_terms(const RodState& state) const {
+std::vector<RodSystem::MomentTerm> RodSystem::moment_terms(StateView state) const {
   std::vector<MomentTerm> terms;
   for (const Moment& load : moments_)
     if (!(held_[load.node] & held_rotation))

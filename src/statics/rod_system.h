@@ -21,6 +21,15 @@ struct RodState {
   void apply(const std::vector<Vec6>& step, double share);
 };
 
+/// The nodes of one rod within the state of a network, counted from the rod's first one.
+struct StateView {
+  const Vec3* r;
+  const Quat* q;
+
+  StateView(const RodState& state, int first = 0)  // NOLINT: a whole state is a view of its only rod
+      : r(state.r.data() + first), q(state.q.data() + first) {}
+};
+
 /// Which wrench the geometric terms of the second derivative use: none, the predicted one, or the actual one. `rough` is
 /// the predicted one far from the solution: the element then leaves out its fourth-order correction, whose softer shear
 /// would let a wrong wrench make the matrix indefinite.
@@ -58,17 +67,24 @@ class RodSystem {
 
   /// Nodes from vertex frames (the first guess or another solution); and back.
   virtual RodState state_from(const std::vector<Frame>& vertices) const = 0;
-  virtual std::vector<Frame> frames_of(const RodState& state) const = 0;
+  virtual std::vector<Frame> frames_of(StateView state) const = 0;
 
-  /// Overwrites the system. Held unknowns are not yet taken out. Returns the energy.
-  double assemble(const RodState& state, Stress stress, BlockSystem& system);
+  /// The nodes that carry position and rotation of the section at a vertex. Throws UsageError where the element has no such
+  /// nodes: the staggered one has rotations between the vertices, and at the ends.
+  struct SectionNodes {
+    int position, rotation;
+  };
+  virtual SectionNodes section_at(int vertex) const = 0;
+
+  /// Overwrites its part of the system. Held unknowns are not yet taken out. Returns the energy.
+  double assemble(StateView state, Stress stress, BlockView system);
 
   /// Energy and gradient alone.
-  double gradient(const RodState& state, std::vector<Vec6>& gradient);
+  double gradient(StateView state, Vec6* gradient);
 
   /// After assemble(): the wrench that the whole linearised step leads to becomes the predicted one. It balances the
   /// loads in world axes, so it is turned back by what the sections really turn, `share` of the step's rotations.
-  virtual void predict(const std::vector<Vec6>& step, double share) = 0;
+  virtual void predict(const Vec6* step, double share) = 0;
 
   /// Dead moments times `share`, for loading in steps.
   void scale_moments(double share);
@@ -79,7 +95,7 @@ class RodSystem {
 
   /// Takes another solution's internal forces (world axes) and moments (section axes at mid-segment), one a segment, for
   /// the predicted wrench. Elements that need no such help ignore it.
-  virtual void expect(const RodState&, const std::vector<Vec3>& /*forces*/, const std::vector<Vec3>& /*moments*/) {}
+  virtual void expect(StateView, const std::vector<Vec3>& /*forces*/, const std::vector<Vec3>& /*moments*/) {}
 
   /// Stretch against bending over one segment: h^2 EA/(12 EI), the largest. What a false stretch strain is multiplied by.
   double stretch_stiffness() const { return stretch_stiffness_; }
@@ -88,25 +104,25 @@ class RodSystem {
   virtual void cap_stretch_stiffness(double limit) = 0;
 
   /// Fills energies, forces, strains, curvatures and moments of a solution.
-  virtual void describe(const RodState& state, Equilibrium& out) = 0;
+  virtual void describe(StateView state, Equilibrium& out) = 0;
 
   /// Adds what hold k exerts on the rod (world axes), from the gradient of all terms.
-  virtual void add_reaction(int hold, const RodState& state, const std::vector<Vec6>& gradient, Reaction& out) const = 0;
+  virtual void add_reaction(int hold, StateView state, const Vec6* gradient, Reaction& out) const = 0;
 
   /// Antisymmetric part of the second derivative: node and R^T m of every dead moment.
   struct MomentTerm {
     int node;
     Vec3 body_moment;
   };
-  std::vector<MomentTerm> moment_terms(const RodState& state) const;
+  std::vector<MomentTerm> moment_terms(StateView state) const;
 
  protected:
-  virtual double assemble_elements(const RodState& state, Stress stress, BlockSystem& system) = 0;
-  virtual double element_gradient(const RodState& state, std::vector<Vec6>& gradient) = 0;
+  virtual double assemble_elements(StateView state, Stress stress, BlockView system) = 0;
+  virtual double element_gradient(StateView state, Vec6* gradient) = 0;
 
   /// -w.r and -F.r summed over nodes, and the end terms of the fourth-order gravity rule.
-  double add_loads(const RodState& state, std::vector<Vec6>& gradient, std::vector<Mat6>* diagonal) const;
-  void describe_loads(const RodState& state, Energy& energy) const;
+  double add_loads(StateView state, Vec6* gradient, Mat6* diagonal) const;
+  void describe_loads(StateView state, Energy& energy) const;
 
   RodProblem problem_;
   RodMesh mesh_;

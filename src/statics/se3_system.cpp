@@ -114,7 +114,7 @@ double Se3System::false_stress() const {
   return std::sqrt(largest);
 }
 
-void Se3System::expect(const RodState& state, const std::vector<Vec3>& forces, const std::vector<Vec3>& moments) {
+void Se3System::expect(StateView state, const std::vector<Vec3>& forces, const std::vector<Vec3>& moments) {
   for (int i = 0; i + 1 < nodes_; ++i) {
     const Quat middle = state.q[i].slerp(0.5, state.q[i + 1]);
     put(predicted_[i / 4].n, middle.conjugate() * forces[i], i % 4);
@@ -141,13 +141,13 @@ RodState Se3System::state_from(const std::vector<Frame>& vertices) const {
   return state;
 }
 
-std::vector<Frame> Se3System::frames_of(const RodState& state) const {
+std::vector<Frame> Se3System::frames_of(StateView state) const {
   std::vector<Frame> frames(nodes_);
   for (int i = 0; i < nodes_; ++i) frames[i] = {state.r[i], state.q[i]};
   return frames;
 }
 
-Se3Ends<Pack> Se3System::ends(const RodState& state, int pack) const {
+Se3Ends<Pack> Se3System::ends(StateView state, int pack) const {
   Se3Ends<Pack> e;
   const int last = mesh_.vertices() - 2;
   for (int l = 0; l < 4; ++l) {
@@ -163,7 +163,7 @@ Se3Ends<Pack> Se3System::ends(const RodState& state, int pack) const {
   return e;
 }
 
-double Se3System::assemble_elements(const RodState& state, Stress stress, BlockSystem& system) {
+double Se3System::assemble_elements(StateView state, Stress stress, BlockView system) {
   // Each segment sets the blocks of its far end and adds to those of its near end; only the first is cleared.
   system.gradient[0].setZero();
   system.diagonal[0].setZero();
@@ -209,7 +209,7 @@ double Se3System::assemble_elements(const RodState& state, Stress stress, BlockS
   return energy;
 }
 
-double Se3System::element_gradient(const RodState& state, std::vector<Vec6>& gradient) {
+double Se3System::element_gradient(StateView state, Vec6* gradient) {
   double energy = 0;
   for (int p = 0; p < packs(); ++p) {
     const SegmentGradient<Pack> g = se3_gradient(segments_[p], ends(state, p));
@@ -226,7 +226,7 @@ double Se3System::element_gradient(const RodState& state, std::vector<Vec6>& gra
   return energy;
 }
 
-void Se3System::predict(const std::vector<Vec6>& step, double share) {
+void Se3System::predict(const Vec6* step, double share) {
   const Pack half = filled<Pack>(0.5), turned = filled<Pack>(share);
   for (int p = 0; p < packs(); ++p) {
     V3<Pack> dr{}, ta{}, tb{};
@@ -243,7 +243,7 @@ void Se3System::predict(const std::vector<Vec6>& step, double share) {
   }
 }
 
-void Se3System::describe(const RodState& state, Equilibrium& out) {
+void Se3System::describe(StateView state, Equilibrium& out) {
   const int segments = nodes_ - 1;
   out.forces.resize(segments);
   out.strains.resize(segments);
@@ -281,7 +281,7 @@ void Se3System::describe(const RodState& state, Equilibrium& out) {
   describe_loads(state, out.energy);
 }
 
-void Se3System::add_reaction(int hold, const RodState& state, const std::vector<Vec6>& gradient, Reaction& out) const {
+void Se3System::add_reaction(int hold, StateView state, const Vec6* gradient, Reaction& out) const {
   const Target& target = targets_[hold];
   if (target.mask & held_position) out.force += gradient[target.node].head<3>();
   if (target.mask & held_rotation) out.moment += state.q[target.node] * Vec3(gradient[target.node].tail<3>());

@@ -12,22 +12,23 @@ class Se3System final : public RodSystem {
   Se3System(const RodProblem& problem, RodMesh mesh, bool fourth_order = true);
 
   RodState state_from(const std::vector<Frame>& vertices) const override;
-  std::vector<Frame> frames_of(const RodState& state) const override;
-  void predict(const std::vector<Vec6>& step, double share) override;
+  std::vector<Frame> frames_of(StateView state) const override;
+  SectionNodes section_at(int vertex) const override { return {vertex, vertex}; }
+  void predict(const Vec6* step, double share) override;
   double false_stress() const override;
-  void expect(const RodState& state, const std::vector<Vec3>& forces, const std::vector<Vec3>& moments) override;
+  void expect(StateView state, const std::vector<Vec3>& forces, const std::vector<Vec3>& moments) override;
   void cap_stretch_stiffness(double limit) override;
-  void describe(const RodState& state, Equilibrium& out) override;
-  void add_reaction(int hold, const RodState& state, const std::vector<Vec6>& gradient, Reaction& out) const override;
+  void describe(StateView state, Equilibrium& out) override;
+  void add_reaction(int hold, StateView state, const Vec6* gradient, Reaction& out) const override;
 
  protected:
-  double assemble_elements(const RodState& state, Stress stress, BlockSystem& system) override;
-  double element_gradient(const RodState& state, std::vector<Vec6>& gradient) override;
+  double assemble_elements(StateView state, Stress stress, BlockView system) override;
+  double element_gradient(StateView state, Vec6* gradient) override;
 
  private:
   int packs() const { return static_cast<int>(segments_.size()); }
   int lanes_in(int pack) const { return std::min(4, mesh_.vertices() - 1 - 4 * pack); }
-  Se3Ends<Pack> ends(const RodState& state, int pack) const;
+  Se3Ends<Pack> ends(StateView state, int pack) const;
 
   std::vector<Se3Segment<Pack>> segments_;
   std::vector<Wrench<Pack>> actual_, predicted_, geometric_;  ///< geometric: that of the last second derivative

@@ -1,4 +1,4 @@
-// Static equilibrium of one rod: the door to everything in this folder.
+// Static equilibrium of rods: the door to everything in this folder.
 #pragma once
 
 #include "base/run_context.h"
@@ -12,5 +12,9 @@ namespace tendril {
 /// converge, is cancelled or runs out of time gives a result with that status and the best state so far.
 Equilibrium solve(const RodProblem& problem, const SolveOptions& options = {}, const RunContext& context = {},
                   const Equilibrium* from = nullptr);
+
+/// The same for rods that hang together at branch points.
+SystemEquilibrium solve(const SystemProblem& problem, const SolveOptions& options = {}, const RunContext& context = {},
+                        const SystemEquilibrium* from = nullptr);
 
 }  // namespace tendril

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/error.h"
+
 namespace tendril {
 
 StaggeredSystem::StaggeredSystem(const RodProblem& problem, RodMesh mesh, ClampRule rule)
@@ -150,7 +152,7 @@ RodState StaggeredSystem::state_from(const std::vector<Frame>& vertices) const {
   return state;
 }
 
-std::vector<Frame> StaggeredSystem::frames_of(const RodState& state) const {
+std::vector<Frame> StaggeredSystem::frames_of(StateView state) const {
   const int last = mesh_.vertices() - 1;
   const bool ghosts = rule_ == ClampRule::half_cell;
   std::vector<Frame> frames(mesh_.vertices());
@@ -168,7 +170,15 @@ std::vector<Frame> StaggeredSystem::frames_of(const RodState& state) const {
   return frames;
 }
 
-double StaggeredSystem::assemble_elements(const RodState& state, Stress stress, BlockSystem& system) {
+RodSystem::SectionNodes StaggeredSystem::section_at(int vertex) const {
+  const int last = mesh_.vertices() - 1;
+  const bool ghosts = rule_ == ClampRule::half_cell;
+  if (vertex == 0) return {0, ghosts ? 0 : 1};
+  if (vertex == last) return {last, ghosts ? nodes_ - 1 : last};
+  throw UsageError("the staggered element joins rods at their ends only; use the se3 element or cut the rod in two");
+}
+
+double StaggeredSystem::assemble_elements(StateView state, Stress stress, BlockView system) {
   for (int i = 0; i < nodes_; ++i) {
     system.gradient[i].setZero();
     system.diagonal[i].setZero();
@@ -219,7 +229,7 @@ double StaggeredSystem::assemble_elements(const RodState& state, Stress stress, 
   return energy;
 }
 
-double StaggeredSystem::element_gradient(const RodState& state, std::vector<Vec6>& gradient) {
+double StaggeredSystem::element_gradient(StateView state, Vec6* gradient) {
   double energy = 0;
   for (int j = 0; j < segments(); ++j) {
     const auto t = stretches_[j].segment.evaluate(state.r[j + 1] - state.r[j], state.q[j + 1], nullptr);
@@ -237,7 +247,7 @@ double StaggeredSystem::element_gradient(const RodState& state, std::vector<Vec6
   return energy;
 }
 
-void StaggeredSystem::predict(const std::vector<Vec6>& step, double share) {
+void StaggeredSystem::predict(const Vec6* step, double share) {
   auto balanced = [&](const Vec3& actual, const Vec3& change, const Vec3& geometric, const Vec3& turn) {
     return Vec3(exp_rotation(-share * turn) * (actual + change + turn.cross(geometric)));
   };
@@ -253,7 +263,7 @@ void StaggeredSystem::predict(const std::vector<Vec6>& step, double share) {
   }
 }
 
-void StaggeredSystem::describe(const RodState& state, Equilibrium& out) {
+void StaggeredSystem::describe(StateView state, Equilibrium& out) {
   const int n = segments();
   out.forces.resize(n);
   out.strains.resize(n);
@@ -295,8 +305,7 @@ void StaggeredSystem::describe(const RodState& state, Equilibrium& out) {
   describe_loads(state, out.energy);
 }
 
-void StaggeredSystem::add_reaction(int hold, const RodState& state, const std::vector<Vec6>& gradient,
-                                   Reaction& out) const {
+void StaggeredSystem::add_reaction(int hold, StateView state, const Vec6* gradient, Reaction& out) const {
   const Hold& held = problem_.holds[hold];
   const int vertex = mesh_.hold_vertex[hold], last = mesh_.vertices() - 1;
   if (held.position) out.force += gradient[vertex].head<3>();

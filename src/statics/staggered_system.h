@@ -13,15 +13,16 @@ class StaggeredSystem final : public RodSystem {
   StaggeredSystem(const RodProblem& problem, RodMesh mesh, ClampRule rule);
 
   RodState state_from(const std::vector<Frame>& vertices) const override;
-  std::vector<Frame> frames_of(const RodState& state) const override;
-  void predict(const std::vector<Vec6>& step, double share) override;
+  std::vector<Frame> frames_of(StateView state) const override;
+  SectionNodes section_at(int vertex) const override;
+  void predict(const Vec6* step, double share) override;
   void cap_stretch_stiffness(double limit) override;
-  void describe(const RodState& state, Equilibrium& out) override;
-  void add_reaction(int hold, const RodState& state, const std::vector<Vec6>& gradient, Reaction& out) const override;
+  void describe(StateView state, Equilibrium& out) override;
+  void add_reaction(int hold, StateView state, const Vec6* gradient, Reaction& out) const override;
 
  protected:
-  double assemble_elements(const RodState& state, Stress stress, BlockSystem& system) override;
-  double element_gradient(const RodState& state, std::vector<Vec6>& gradient) override;
+  double assemble_elements(StateView state, Stress stress, BlockView system) override;
+  double element_gradient(StateView state, Vec6* gradient) override;
 
  private:
   /// A bending cell between the rotations of two neighbouring nodes, or of one node and a held frame.
@@ -45,8 +46,8 @@ class StaggeredSystem final : public RodSystem {
   void make_stretches();
   void make_cells();
   Cell cell_at(int vertex) const;
-  const Quat& rotation_a(const Cell& cell, const RodState& state) const { return cell.a < 0 ? cell.held : state.q[cell.a]; }
-  const Quat& rotation_b(const Cell& cell, const RodState& state) const { return cell.b < 0 ? cell.held : state.q[cell.b]; }
+  const Quat& rotation_a(const Cell& cell, StateView state) const { return cell.a < 0 ? cell.held : state.q[cell.a]; }
+  const Quat& rotation_b(const Cell& cell, StateView state) const { return cell.b < 0 ? cell.held : state.q[cell.b]; }
 
   ClampRule rule_;
   std::vector<Stretch> stretches_;

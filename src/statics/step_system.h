@@ -4,13 +4,13 @@
 #include <vector>
 
 #include "statics/block_ldlt.h"
-#include "statics/rod_system.h"
+#include "statics/rod_network.h"
 
 namespace tendril {
 
 class StepSystem {
  public:
-  explicit StepSystem(const RodSystem& system) : system_(system) {}
+  explicit StepSystem(const RodNetwork& network) : network_(network), ldlt_(network.pattern()) {}
 
   BlockSystem block;  ///< to be assembled before each step
 
@@ -25,22 +25,21 @@ class StepSystem {
   int factor(bool only_positive, int& factorisations);
   bool broken() const { return ldlt_.broken(); }
 
+  /// The step, joined sections included.
   void solve(const RodState& state, std::vector<Vec6>& step) const;
 
   /// The direction in which the energy curves least, by inverse iteration with the last factor.
-  std::vector<Vec6> softest_mode() const;
-
-  /// max(rotation in rad, move over the length); infinite when something is not a number.
-  double size_of(const std::vector<Vec6>& step) const;
+  std::vector<Vec6> softest_mode(const RodState& state) const;
 
   double shift() const { return shift_; }
   void relax_shift();  ///< after a full step
 
  private:
   void add_shift(double change);
+  void clear_held(int node, const std::vector<int>& edges);
   void solve_with_moments(const RodState& state, std::vector<Vec6>& step) const;
 
-  const RodSystem& system_;
+  const RodNetwork& network_;
   BlockLdlt ldlt_;
   std::vector<Vec6> wanted_;  ///< what is left to the holds' places; empty when they are in place
   double shift_ = 0, last_shift_ = 0;

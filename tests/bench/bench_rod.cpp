@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "statics/solve.h"
-#include "statics/solver.h"
+#include "statics/network_solver.h"
 
 namespace {
 
@@ -46,8 +46,8 @@ RodProblem cantilever(int segments) {
 double error_of(const RodProblem& problem, SolveOptions options) {
   options.tolerance = 1e-12;
   const Equilibrium coarse = solve(problem, options);
-  RodSolver fine(problem, options, problem.rod.segments, 16);
-  const Equilibrium exact = fine.solve({}, nullptr);
+  NetworkSolver fine({{problem}, {}}, options, 16);
+  const Equilibrium exact = fine.solve({}).rods.front();
   double largest = 0;
   for (std::size_t i = 0; i < coarse.points.size(); ++i)
     largest = std::max(largest, (coarse.points[i] - exact.points[16 * i]).norm());
@@ -55,7 +55,7 @@ double error_of(const RodProblem& problem, SolveOptions options) {
 }
 
 void inner(benchmark::State& state, const RodProblem& problem) {
-  RodSolver solver(problem, options_of(state), problem.rod.segments);
+  NetworkSolver solver({{problem}, {}}, options_of(state));
   const RodState start = solver.starting_state(nullptr);
   RodState there;
   NewtonOutcome outcome;
@@ -89,11 +89,11 @@ void cantilever_solve(benchmark::State& state) { whole(state, cantilever(static_
 /// The end hold has moved by 1 mm since the state was solved.
 void hose_warm(benchmark::State& state) {
   RodProblem problem = hose(static_cast<int>(state.range(0)));
-  RodSolver solver(problem, options_of(state), problem.rod.segments);
+  NetworkSolver solver({{problem}, {}}, options_of(state));
   RodState start = solver.starting_state(nullptr);
   solver.iterate(start, false, {});
   problem.holds[1].frame.at.x() += 1e-3;
-  RodSolver moved(problem, options_of(state), problem.rod.segments);
+  NetworkSolver moved({{problem}, {}}, options_of(state));
   RodState there;
   NewtonOutcome outcome;
   for (auto _ : state) {

@@ -45,7 +45,7 @@ TEST_CASE("block LDL^T solves as a dense solver does and counts the negative eig
       const Eigen::MatrixXd m = dense(s);
       Eigen::VectorXd g(6 * vertices);
       for (int i = 0; i < vertices; ++i) g.segment<6>(6 * i) = s.gradient[i];
-      BlockLdlt ldlt;
+      BlockLdlt ldlt(BlockPattern::chain(vertices));
       const int negative = ldlt.factor(s);
       const Eigen::VectorXd eigenvalues = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(m).eigenvalues();
       CHECK(negative == (eigenvalues.array() < 0).count());
@@ -66,7 +66,7 @@ TEST_CASE("block LDL^T reports a matrix that it cannot factorise", "[statics]") 
   s.diagonal = {Mat6::Zero(), Mat6::Identity()};
   s.upper = {Mat6::Zero()};
   s.gradient = {Vec6::Zero(), Vec6::Zero()};
-  BlockLdlt ldlt;
+  BlockLdlt ldlt(BlockPattern::chain(s.vertices()));
   ldlt.factor(s);
   CHECK(ldlt.broken());
 }

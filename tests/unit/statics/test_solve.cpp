@@ -5,7 +5,7 @@
 
 #include "statics/first_guess.h"
 #include "statics/solve.h"
-#include "statics/solver.h"
+#include "statics/network_solver.h"
 
 using namespace tendril;
 

@@ -10,37 +10,41 @@
 
 namespace tendril {
 
-/// Solves one rod again and again without new set-up. The problem was checked by the caller.
-class RodSolver {
+/// Solves one system of rods again and again without new set-up. The problem was checked by the caller.
+class NetworkSolver {
  public:
-  /// `refinement`: every segment is cut into that many equal ones.
-  RodSolver(const RodProblem& problem, const SolveOptions& options, int segments, int refinement = 1);
+  /// As many segments as the rods ask for; `refinement`: every segment is cut into that many equal ones.
+  NetworkSolver(const SystemProblem& problem, const SolveOptions& options, int refinement = 1);
 
-  Equilibrium solve(const RunContext& context, const Equilibrium* from = nullptr);
+  SystemEquilibrium solve(const RunContext& context, const SystemEquilibrium* from = nullptr);
 
   /// Newton alone, from a state to a state: the inner loop of everything that solves often.
   NewtonOutcome iterate(RodState& state, bool warm, const RunContext& context);
 
   /// The state that solve() starts from.
-  RodState starting_state(const Equilibrium* from) const;
+  RodState starting_state(const SystemEquilibrium* from) const;
 
-  const RodSystem& system() const { return *system_; }
+  /// Fills everything but status, message and counts.
+  void describe(const RodState& state, SystemEquilibrium& out);
+
+  const RodNetwork& network() const { return *network_; }
+  RodNetwork& network() { return *network_; }
 
  private:
   NewtonOutcome with_fallbacks(RodState& state, bool warm, const RunContext& context, int& fallbacks);
   /// The staggered element copes with segments too long for the tension in them. Its solution starts this element, or
   /// stands in for it (substitute_) where the segments are too long indeed.
   NewtonOutcome by_staggered(RodState& state, int most, const RunContext& context);
-  Equilibrium solve_in_contact(const RunContext& context, const Equilibrium* from);
+  SystemEquilibrium solve_in_contact(const RunContext& context, const SystemEquilibrium* from);
   NewtonOutcome load_in_steps(RodState& state, const RunContext& context);
-  void describe(const RodState& state, Equilibrium& out);
+  void describe_joints(const RodState& state, const std::vector<Vec6>& gradient, SystemEquilibrium& out) const;
 
   SolveOptions options_;
-  int segments_, refinement_;
-  std::unique_ptr<RodSystem> system_;
+  int refinement_;
+  std::unique_ptr<RodNetwork> network_;
   Newton newton_;
   std::unique_ptr<ContactSolver> contact_;  ///< null without surroundings
-  std::unique_ptr<Equilibrium> substitute_;
+  std::unique_ptr<SystemEquilibrium> substitute_;
   std::vector<Vec6> gradient_;
 };
 

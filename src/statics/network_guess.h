@@ -1,0 +1,18 @@
+// Where the solution of a network begins: branch points between what holds them, then each rod's own first guess.
+#pragma once
+
+#include "statics/rod_network.h"
+
+namespace tendril {
+
+/// Frames at the vertices of every rod and at the branch points.
+struct NetworkGuess {
+  std::vector<std::vector<Frame>> rods;
+  std::vector<Frame> branches;
+};
+
+/// Branch points are placed as a net of springs, each as soft as its rod is long, and turned so that the rods leave towards
+/// their other ends; linear in their number. A single rod is guessed as first_guess.h says.
+NetworkGuess network_guess(const RodNetwork& network);
+
+}  // namespace tendril
