@@ -10,6 +10,7 @@
 
 #include "base/run_context.h"
 #include "scene/placed_obstacle.h"
+#include "scene/placed_branch.h"
 #include "scene/placed_rod.h"
 #include "scene/scene_equilibrium.h"
 #include "statics/problem.h"
@@ -29,12 +30,17 @@ class Scene {
   void add(PlacedObstacle obstacle);
   /// Throws UsageError for a name that is taken.
   PlacedRod& add(PlacedRod rod);
-  /// Removes an obstacle or a rod. Throws UsageError for an unknown name, with the nearest.
+  /// Throws UsageError for a name that is taken, and a place that belongs to another branch point.
+  PlacedBranch& add(PlacedBranch branch);
+  /// Removes an obstacle, a rod or a branch point. Throws UsageError for an unknown name, with the nearest, and for a rod
+  /// that belongs to a branch point.
   void remove(std::string_view name);
 
   const std::vector<PlacedObstacle>& obstacles() const { return obstacles_; }
   const std::vector<std::unique_ptr<PlacedRod>>& rods() const { return rods_; }
+  const std::vector<std::unique_ptr<PlacedBranch>>& branches() const { return branches_; }
   /// Throws UsageError for an unknown name, with the nearest.
+  PlacedBranch& branch(std::string_view name) const;
   PlacedRod& rod(std::string_view name) const;
   const PlacedObstacle& obstacle(std::string_view name) const;
 
@@ -44,6 +50,14 @@ class Scene {
   /// The statics problem of one rod with only the terms that it needs.
   RodProblem problem_of(const PlacedRod& rod) const;
 
+  /// Rods that hang together, with the branch points between them; every rod is in one of them. Numbers are those of
+  /// rods() and branches(). The problems have no surroundings. Throws UsageError, by name, for rods that nothing holds.
+  struct System {
+    SystemProblem problem;
+    std::vector<int> rods, branches;
+  };
+  std::vector<System> systems() const;
+
   /// Static equilibrium of every rod. `from`: start from the rods of the same name in an earlier equilibrium.
   /// Throws UsageError for a scene without rods and for problems that make no sense (see RodProblem::check); a
   /// computation that does not converge, is cancelled or runs out of time is a result with that status.
@@ -52,10 +66,13 @@ class Scene {
 
  private:
   void check_free(std::string_view name, const char* who) const;
+  void check_held(const System& system) const;
+  int index_of_rod(std::string_view name) const;
 
   Vec3 gravity_;
   std::vector<PlacedObstacle> obstacles_;
   std::vector<std::unique_ptr<PlacedRod>> rods_;
+  std::vector<std::unique_ptr<PlacedBranch>> branches_;
   mutable std::shared_ptr<const Surroundings> surroundings_;
 };
 

@@ -34,14 +34,16 @@ Status SceneEquilibrium::status() const {
 std::string SceneEquilibrium::message() const {
   if (ok()) return "solved";
   std::string text;
-  for (const SolvedRod& rod : rods)
+  for (const SolvedSystem& system : systems) {
+    const SolvedRod& rod = rods[system.rods.front()];
     if (!rod.equilibrium.ok()) text += (text.empty() ? "" : "; ") + rod.name + ": " + rod.equilibrium.message;
+  }
   return text;
 }
 
 int SceneEquilibrium::iterations() const {
   int sum = 0;
-  for (const SolvedRod& rod : rods) sum += rod.equilibrium.iterations;
+  for (const SolvedSystem& system : systems) sum += rods[system.rods.front()].equilibrium.iterations;
   return sum;
 }
 
@@ -96,6 +98,36 @@ const SolvedRod& SceneEquilibrium::rod(std::string_view name) const {
   throw UsageError("equilibrium: unknown rod " + unknown_name(name, "rods", names));
 }
 
+const SolvedBranch& SceneEquilibrium::branch(std::string_view name) const {
+  std::vector<std::string> names;
+  for (const SolvedBranch& branch : branches) {
+    if (branch.name == name) return branch;
+    names.push_back(branch.name);
+  }
+  throw UsageError("equilibrium: unknown branch point " + unknown_name(name, "branch points", names));
+}
+
+std::optional<SystemEquilibrium> SceneEquilibrium::part(const SceneEquilibrium& like, const std::vector<int>& rod_numbers,
+                                                        const std::vector<int>& branch_numbers) const {
+  SystemEquilibrium found;
+  for (const int k : rod_numbers)
+    for (const SolvedRod& rod : rods)
+      if (rod.name == like.rods[k].name) found.rods.push_back(rod.equilibrium);
+  for (const int k : branch_numbers)
+    for (const SolvedBranch& branch : branches)
+      if (branch.name == like.branches[k].name) found.branches.push_back(branch.frame);
+  if (found.rods.size() != rod_numbers.size() || found.branches.size() != branch_numbers.size() || !found.complete()) return {};
+  return found;
+}
+
+void SceneEquilibrium::take(SystemEquilibrium solved, const std::vector<int>& rod_numbers, const std::vector<int>& branch_numbers) {
+  for (std::size_t i = 0; i < rod_numbers.size(); ++i) rods[rod_numbers[i]].equilibrium = std::move(solved.rods[i]);
+  for (std::size_t i = 0; i < branch_numbers.size(); ++i) {
+    branches[branch_numbers[i]].frame = solved.branches[i];
+    branches[branch_numbers[i]].support = solved.branch_supports[i];
+  }
+}
+
 int SceneEquilibrium::obstacle(std::string_view name) const {
   std::vector<std::string> names;
   for (std::size_t i = 0; i < obstacles.size(); ++i) {
@@ -134,12 +166,11 @@ std::vector<SceneEquilibrium::JudgedGap> SceneEquilibrium::judged_gaps(const Sol
 Reaction SceneEquilibrium::reaction(const SolvedRod& rod, double at) const {
   const double length = rod.problem.rod.length;
   std::string places;
-  for (std::size_t i = 0; i < rod.problem.holds.size() && i < rod.equilibrium.reactions.size(); ++i) {
-    const double held = rod.problem.holds[i].at;
-    if (std::abs(held - at) <= 1e-9 * length) return rod.equilibrium.reactions[i];
+  for (const Reaction& reaction : rod.equilibrium.reactions) {
+    if (std::abs(reaction.s - at) <= 1e-9 * length) return reaction;
     char text[32];
-    std::snprintf(text, sizeof text, "%.6g m", held);
-    places += (places.empty() ? "" : ", ") + std::string(held <= 0 ? "start" : held >= length ? "finish" : text);
+    std::snprintf(text, sizeof text, "%.6g m", reaction.s);
+    places += (places.empty() ? "" : ", ") + std::string(reaction.s <= 0 ? "start" : reaction.s >= length ? "finish" : text);
   }
   char text[32];
   std::snprintf(text, sizeof text, "%.6g", at);

@@ -21,10 +21,25 @@ struct SolvedRod {
   Equilibrium equilibrium;
 };
 
+/// One branch point of a scene as it was solved.
+struct SolvedBranch {
+  std::string name;
+  Frame frame;
+  Reaction support;  ///< what holds it: N and N m in world axes, about its place; zero but for rounding where it is free
+};
+
+/// Rods that were solved together, and the branch points between them, by their numbers in the scene's equilibrium.
+struct SolvedSystem {
+  SystemProblem problem;
+  std::vector<int> rods, branches;
+};
+
 /// A scene (or rather a picture taken of it when it was solved: later changes of the scene do not show here) in static
 /// equilibrium. Immutable once made.
 struct SceneEquilibrium {
   std::vector<SolvedRod> rods;
+  std::vector<SolvedBranch> branches;
+  std::vector<SolvedSystem> systems;
   std::vector<PlacedObstacle> obstacles;  ///< numbered as in `surroundings`
   std::shared_ptr<const Surroundings> surroundings;  ///< null without obstacles
   double seconds = 0;            ///< all rods, without building the obstacles' trees
@@ -33,7 +48,7 @@ struct SceneEquilibrium {
   bool ok() const { return status() == Status::solved; }
   Status status() const;          ///< the worst of the rods': cancelled, timeout, infeasible, stalled, solved
   std::string message() const;    ///< "solved", or each rod that is not, by name, and why
-  int iterations() const;         ///< sum over the rods
+  int iterations() const;         ///< sum over the systems
   double residual() const;        ///< N, the largest of the rods'
   bool stable() const;            ///< every rod is stable
   Energy energy() const;          ///< J, summed over the rods
@@ -43,6 +58,14 @@ struct SceneEquilibrium {
 
   /// Throws UsageError with the nearest name.
   const SolvedRod& rod(std::string_view name) const;
+  const SolvedBranch& branch(std::string_view name) const;
+
+  /// The rods and branch points of these numbers in `like`, found here by name, to start from; nothing when one is missing.
+  std::optional<SystemEquilibrium> part(const SceneEquilibrium& like, const std::vector<int>& rods,
+                                        const std::vector<int>& branches) const;
+  /// Takes over what was solved together.
+  void take(SystemEquilibrium solved, const std::vector<int>& rods, const std::vector<int>& branches);
+
   /// Index of an obstacle by name. Throws UsageError with the nearest name.
   int obstacle(std::string_view name) const;
 
@@ -62,8 +85,8 @@ struct SceneEquilibrium {
   };
   std::vector<JudgedGap> judged_gaps(const SolvedRod& rod) const;
 
-  /// What the support does to the rod at a hold: force in N and moment in N m in world axes. Throws UsageError where the
-  /// rod is not held.
+  /// What the support, or the branch point, does to the rod at a hold or joined place: force in N and moment in N m in world
+  /// axes. Throws UsageError where the rod is neither held nor joined.
   Reaction reaction(const SolvedRod& rod, double at) const;
 };
 

@@ -15,9 +15,9 @@ struct Hold {
   Frame frame;
   bool position = true;
   bool orientation = true;
+  double turns = 0;  ///< extra full turns about the tangent relative to the start: a frame alone cannot tell 0 from 360 degrees
   /// The rod slips through without friction along d3: `at` is where the search begins, the arc length there an unknown.
   bool slide = false;
-  double turns = 0;  ///< extra full turns about the tangent relative to the start: a frame alone cannot tell 0 from 360 degrees
 };
 
 /// A dead load (constant in world axes) on the section at arc length `at`: force in N, moment in N m.
