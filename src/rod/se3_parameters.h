@@ -38,7 +38,9 @@ inline Wrench<T> operator*(const T& s, const Wrench<T>& a) { return {s * a.n, s 
 template <class T>
 inline T dot(const Wrench<T>& a, const Wrench<T>& b) { return tendril::dot(a.n, b.n) + tendril::dot(a.m, b.m); }
 template <class T>
-inline Wrench<T> times(const Wrench<T>& a, const Wrench<T>& b) { return {tendril::times(a.n, b.n), tendril::times(a.m, b.m)}; }
+inline Wrench<T> times(const Wrench<T>& a, const Wrench<T>& b) {
+  return {tendril::times(a.n, b.n), tendril::times(a.m, b.m)};
+}
 
 /// M_w x = ad_x^T w; antisymmetric in its two 6-vectors' roles: y . M_w x = -x . M_w y.
 template <class T>
@@ -72,11 +74,17 @@ class Se3Slopes {
   const Wrench<T>& rate() const { return rate_; }        ///< eps: v and phi over h, e3 included
   const Wrench<T>& variation() const { return U_; }      ///< U: the wrench's change along the segment, ad_eps^T W
 
+  /// Gradient by the position of the far end: the internal force, in world axes.
+  V3<T> force() const {
+    return x_.axes * transposed_times(x_.a, w_.n + q_ * cross(w_.n, u_.m));
+  }
+
   /// Derivatives of step . gradient by the parameters.
   Se3Parameters<T> of_work(const Se3Step<T>& step) const {
     using namespace detail;
     const Wrench<T> rate = change_of_rate(step);
-    const Wrench<T> w = inverse_c(rate - q_ * (adjoint(rate, u_) + adjoint(rate_, times(flexibility_, coadjoint(w_, rate)))));
+    const Wrench<T> bent = adjoint(rate, u_) + adjoint(rate_, times(flexibility_, coadjoint(w_, rate)));
+    const Wrench<T> w = inverse_c(rate - q_ * bent);
     const Wrench<T> U = coadjoint(w, rate_) + coadjoint(w_, rate);
     const Wrench<T> flexibility = times(w_, w) + q_ * times(U_, U);
     const T half = filled<T>(0.5);
@@ -110,7 +118,7 @@ class Se3Slopes {
     const T per_length = filled<T>(1) / h_;
     to_ends(per_length * (y + q_ * turned + by_rate), ends);
     ends.energy = T{};
-    ends.wrench = {};
+    ends.wrench = Wrench<T>{};
     const Wrench<T> flexibility = times(y, w_) + q_ * times(U, U_);
     parameters = {-(per_length * dot(y + by_rate, rate_)), -flexibility.n, -flexibility.m, -y.n, -y.m};
   }
