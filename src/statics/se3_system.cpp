@@ -3,26 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "statics/se3_packs.h"
+
 namespace tendril {
 namespace {
-
-void put(V3<Pack>& to, const Vec3& v, int i) {
-  lane(to.x, i) = v.x();
-  lane(to.y, i) = v.y();
-  lane(to.z, i) = v.z();
-}
-
-Vec3 get(const V3<Pack>& v, int i) { return {lane(v.x, i), lane(v.y, i), lane(v.z, i)}; }
-
-/// xi of a relative frame: (v, phi) with v = A(phi) d.
-void log_of(const Frame& relative, Vec3& v, Vec3& phi) {
-  JacobianCoefficients<double> k;
-  const Quat& q = relative.rotation;
-  const V3<double> p = rotation_log<double>({q.w(), {q.x(), q.y(), q.z()}}, k);
-  const V3<double> a = inverse_left_jacobian(p, k.c) * V3<double>{relative.at.x(), relative.at.y(), relative.at.z()};
-  v = {a.x, a.y, a.z};
-  phi = {p.x, p.y, p.z};
-}
 
 /// Sets or adds a 3x3 block of one lane in a column-major 6x6 matrix.
 enum class Put { set, set_minus, add, add_minus };
@@ -65,23 +49,10 @@ Se3System::Se3System(const RodProblem& problem, RodMesh mesh, bool fourth_order)
     weight_.assign(nodes_, Vec3::Zero());
     if (fourth_order) weight_slope_.assign(nodes_, Vec3::Zero());
   }
-  segments_.resize((segments + 3) / 4);
-  for (int i = 0; i < 4 * packs(); ++i) {
-    // Lanes behind the last segment repeat it, so that they stay harmless; nothing of them is read.
-    const int real = std::min(i, segments - 1);
-    const MeshSegment& from = mesh_.segments[real];
-    Se3Segment<Pack>& to = segments_[i / 4];
-    const int l = i % 4;
+  segments_ = se3_segments(mesh_, fourth_order);
+  for (int i = 0; i < segments; ++i) {
+    const MeshSegment& from = mesh_.segments[i];
     const double h = from.length;
-    Vec3 v, phi;
-    log_of(from.reference, v, phi);
-    lane(to.h, l) = h;
-    lane(to.q, l) = fourth_order ? h * h / 12 : 0;
-    put(to.flexibility_v, Vec3(1 / from.section.GA1, 1 / from.section.GA2, 1 / from.section.EA), l);
-    put(to.flexibility_phi, Vec3(1 / from.section.EI1, 1 / from.section.EI2, 1 / from.section.GJ), l);
-    put(to.rate_v, v / h, l);
-    put(to.rate_phi, phi / h, l);
-    if (i >= segments) continue;
     node_length_[i] += 0.5 * h;
     node_length_[i + 1] += 0.5 * h;
     if (!heavy) continue;
@@ -147,21 +118,7 @@ std::vector<Frame> Se3System::frames_of(StateView state) const {
   return frames;
 }
 
-Se3Ends<Pack> Se3System::ends(StateView state, int pack) const {
-  Se3Ends<Pack> e;
-  const int last = mesh_.vertices() - 2;
-  for (int l = 0; l < 4; ++l) {
-    const int i = std::min(4 * pack + l, last);
-    const Quat &qa = state.q[i], &qb = state.q[i + 1];
-    lane(e.qa.w, l) = qa.w();
-    put(e.qa.v, qa.vec(), l);
-    lane(e.qb.w, l) = qb.w();
-    put(e.qb.v, qb.vec(), l);
-    put(e.ra, state.r[i], l);
-    put(e.rb, state.r[i + 1], l);
-  }
-  return e;
-}
+Se3Ends<Pack> Se3System::ends(StateView state, int pack) const { return se3_ends(state, nodes_ - 1, pack); }
 
 double Se3System::assemble_elements(StateView state, Stress stress, BlockView system) {
   // Each segment sets the blocks of its far end and adds to those of its near end; only the first is cleared.

@@ -11,8 +11,9 @@ constexpr double smallest_neutral = 1e-7;  // EI/L^2; shifts from here on tell a
 constexpr double neutral_growth = 30;
 constexpr double largest_shift = 1e30;     // EI/L^2; beyond this the matrix holds something that is not a number
 
-/// What one dead moment adds to the second derivative: an antisymmetric 3x3 block.
-Mat3 moment_block(const RodSystem::MomentTerm& term) { return -cross_matrix(term.body_moment); }
+/// What one dead moment b = R^T m adds to the derivative of the gradient: -[b] of its own, and the half of the elastic
+/// gradient, [g]/2, that the symmetric second derivative leaves out and that is [b]/2 in equilibrium.
+Mat3 moment_block(const RodSystem::MomentTerm& term) { return -0.5 * cross_matrix(term.body_moment); }
 
 }  // namespace
 

@@ -1,4 +1,4 @@
-#include "statics/sensitivity_cases.h"
+#include "sensitivity_cases.h"
 
 #include <cmath>
 

@@ -4,7 +4,7 @@
 #include <random>
 
 #include "statics/sensitivity.h"
-#include "statics/sensitivity_cases.h"
+#include "sensitivity_cases.h"
 
 using namespace tendril;
 using namespace tendril::sensitivity_cases;

@@ -182,3 +182,20 @@ TEST_CASE("first guess: turns are spread as twist") {
   for (std::size_t i = 0; i + 1 < guess.size(); ++i) twist += log_rotation(guess[i].rotation.conjugate() * guess[i + 1].rotation).z();
   CHECK(twist == Approx(4 * 3.14159265358979).epsilon(5e-3));
 }
+
+TEST_CASE("solve: a dead moment in space keeps Newton's convergence quadratic") {
+  // The moment has no energy: with a wrong antisymmetric part the steps still shrink, but by a constant factor each.
+  RodProblem problem;
+  problem.rod = Rod::uniform(1, Section::round(0.016, 0, Material::from_poisson(5e6, 0.4, 1100)), 20);
+  const double EI = problem.rod.parts[0].section.EI1;
+  problem.holds = {{0, Frame{}}};
+  problem.gravity = {0, 0, -1};
+  problem.loads = {{1, {0.01, 0, 0}, {0.5 * EI, 0.15 * EI, 0.25 * EI}}};
+  SolveOptions options;
+  options.tolerance = 1e-12;
+  const Equilibrium e = solve(problem, options);
+  REQUIRE(e.ok());
+  CHECK(e.fallbacks == 0);
+  CHECK(e.iterations <= 9);
+  CHECK(e.residual < 1e-9);
+}
