@@ -95,9 +95,9 @@ function rod_methods:with(options) end
 
 ---A curve in space by arc length; it never changes
 ---@class curve
----@field kind string "polyline", "pcc" or "spline"
+---@field kind string "polyline", "pcc", "spline" or "helix"
 ---@field length number Arc length (m)
----@field points (vec)[] Those it was made from (m)
+---@field points (vec)[] Those it was made from; a helix: its ends (m)
 local curve_methods = {}
 
 ---Place and orientation at an arc length in m; along is the tangent.
@@ -391,10 +391,24 @@ local chart_methods = {}
 ---@return saved_file
 function chart_methods:save(path, options) end
 
+---Charts side by side
+---@class sheet
+local sheet_methods = {}
+
+---@class (exact) tendril.sheet.save.options
+---@field timeout? number Give up after this time, with the best state so far; default: never (s; > 0 and <= 1000000000)
+
+---Draws them into one .png or .svg; a missing folder is created.
+---@param path string
+---@param options? tendril.sheet.save.options
+---@return saved_file
+function sheet_methods:save(path, options) end
+
 ---One number of segments in an accuracy study
 ---@class accuracy_row
 ---@field error number Against the reference (m)
 ---@field estimate number The solver's own estimate; NaN unless asked for and valid (m)
+---@field fastest number The shortest of them (s)
 ---@field iterations integer Newton steps
 ---@field order number Observed against the row before; NaN in the first
 ---@field seconds number Median of repeated cold solves (s)
@@ -407,7 +421,7 @@ local accuracy_row_methods = {}
 ---@field element string Which element
 ---@field message string Why it is not complete
 ---@field ok boolean The study is complete
----@field reference_segments integer Of the reference solution
+---@field reference_segments integer Of the reference solution; 0: exact
 ---@field reference_uncertainty number What is not known of the reference (m)
 ---@field rows (accuracy_row)[] One for each number of segments
 ---@field status string How it ended
@@ -563,6 +577,17 @@ function curve.polyline(options) end
 ---@return curve
 function curve.pcc(options) end
 
+---@class (exact) tendril.curve.helix.options
+---@field radius number From the axis to the centre line (m; > 0)
+---@field pitch number Rise of one turn (m)
+---@field turns number How many (> 0)
+---@field left_handed? boolean Turns clockwise as it rises (default false)
+
+---The circular helix about the z axis from {radius, 0, 0} on; d1 points to the axis.
+---@param options tendril.curve.helix.options
+---@return curve
+function curve.helix(options) end
+
 ---@class (exact) tendril.curve.spline.options
 ---@field [integer] vec|number[] Two or more points to pass through, m
 ---@field start? vec|number[] Direction at the first point; default: no curvature there
@@ -642,6 +667,7 @@ study = {}
 ---@field log_x? boolean Logarithmic (default false)
 ---@field log_y? boolean Logarithmic (default false)
 ---@field markers? boolean Mark the points of lines (default true)
+---@field direct_labels? boolean Names beside the lines, no legend (default false)
 ---@field categories? (string)[] Names below the bars
 ---@field references? ({at: number, across: string?, label: string?})[] Dashed lines: list of {at =, across = "horizontal"|"vertical", label =}
 ---@field bins? integer Of a histogram; 0: chosen from the data (0 ... 10000; default 0)
@@ -652,8 +678,22 @@ study = {}
 ---@return chart
 function study.chart(options) end
 
+---@class (exact) tendril.study.sheet.options
+---@field [integer] chart Charts, row by row
+---@field title? string Above all of them
+---@field columns? integer Charts in a row; 0: as many as rows (0 ... 40; default 0)
+---@field size? (integer)[] {width, height} of the whole; default {1600, 1200} (pixels)
+
+---Charts side by side in one picture; draw it with :save(path).
+---@param options? tendril.study.sheet.options
+---@return sheet
+function study.sheet(options) end
+
 ---@class (exact) tendril.study.accuracy.options
 ---@field segments? (integer)[] Numbers of segments of every rod; default {10, 20, 40, 80, 160, 320}
+---@field extrapolate? boolean Richardson: each row solves with half its segments too (default false)
+---@field exact? function function(s, rod): the exact centre line where it is known, at an arc length in m of the rod with this name; default: a fine solution is the reference
+---@field repeat? number For how long each solve is repeated; at least three times (s; 0 ... 3600; default 0.05)
 ---@field element? "se3"|"staggered" Rod element: fourth order, or the second-order reference element (default "se3")
 ---@field clamp? "half_cell"|"thesis" How the staggered element clamps an end: second order, or the thesis's first order (default "half_cell")
 ---@field tolerance? number Largest last step: rotations in rad, positions over the length (1e-14 ... 0.01; default 1e-09)

@@ -20,6 +20,7 @@ std::string accuracy_table(const Accuracy& accuracy) {
   }
   std::string text = "accuracy of element " + accuracy.element() + "\n" + table_text(head, rows);
   if (accuracy.status != Status::solved) return text + "\n" + name_of(accuracy.status) + ": " + accuracy.message;
+  if (accuracy.reference_segments == 0) return text + "\nreference: exact";
   return text + "\nreference: " + std::to_string(accuracy.reference_segments) + " segments, known to " +
          quantity(accuracy.reference_uncertainty, "m") +
          (accuracy.unresolved() ? "; errors near or below that are not resolved" : "");

@@ -26,6 +26,19 @@ Schema spline_options() {
       .with_list(Value<Vec3>::kind(), "points", "Two or more points to pass through, m");
 }
 
+Schema helix_options() {
+  return {
+      option<double>("radius", "m", "From the axis to the centre line").required().above(0),
+      option<double>("pitch", "m", "Rise of one turn").required(),
+      option<double>("turns", "", "How many").required().above(0),
+      option<bool>("left_handed", "", "Turns clockwise as it rises").preset(false),
+  };
+}
+
+Curve make_helix(const Options& o) {
+  return Curve::helix(o.get<double>("radius"), o.get<double>("pitch"), o.get<double>("turns"), o.get<bool>("left_handed"));
+}
+
 Curve make_pcc(const Options& o) {
   const std::vector<Vec3> points = o.get<std::vector<Vec3>>("points");
   const OneOrMany radius = o.get<OneOrMany>("radius");
@@ -41,9 +54,9 @@ Curve make_spline(const Options& o) {
 
 void bind_curve(lua_State* L) {
   Class<Curve>(L, "A curve in space by arc length; it never changes")
-      .property("kind", "", "\"polyline\", \"pcc\" or \"spline\"", [](const Curve& c) { return c.kind(); })
+      .property("kind", "", "\"polyline\", \"pcc\", \"spline\" or \"helix\"", [](const Curve& c) { return c.kind(); })
       .property("length", "m", "Arc length", [](const Curve& c) { return c.length(); })
-      .property("points", "m", "Those it was made from", [](const Curve& c) { return c.points(); })
+      .property("points", "m", "Those it was made from; a helix: its ends", [](const Curve& c) { return c.points(); })
       .method("at", {.takes = {"s"}, .does = "Place and orientation at an arc length in m; along is the tangent.",
                      .example = "print(curve.polyline{{0, 0, 0}, {1, 0, 0}}:at(0.25).at)  --> vec(0.25, 0, 0)"},
               [](const Curve& c, double s) { return c.at(s); })
@@ -66,6 +79,11 @@ void bind_curve(lua_State* L) {
       .function("pcc", {.options = pcc_options(), .does = "Straights with each corner rounded by an arc: piecewise constant curvature.",
                         .example = "print(curve.pcc{points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}, radius = 0.1}:min_bend_radius())"},
                 make_pcc)
+      .function("helix", {.options = helix_options(),
+                          .does = "The circular helix about the z axis from {radius, 0, 0} on; d1 points to the axis.",
+                          .example = "local c = curve.helix{radius = 0.02, pitch = 0.01, turns = 5}\n"
+                                     "print(c:at(0).at)  --> vec(0.02, 0, 0)"},
+                make_helix)
       .function("spline", {.options = spline_options(), .does = "The cubic spline through points, with continuous curvature.",
                            .example = "print(curve.spline{{0, 0, 0}, {0.5, 0.2, 0}, {1, 0, 0}, start = {1, 0, 0}})"},
                 make_spline);

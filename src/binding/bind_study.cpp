@@ -1,4 +1,5 @@
 // study: charts, and what a result costs.
+#include "base/number_text.h"
 #include "binding/accuracy_chart.h"
 #include "binding/card.h"
 #include "binding/examples.h"
@@ -116,6 +117,7 @@ Schema chart_options() {
       option<bool>("log_x", "", "Logarithmic").preset(false),
       option<bool>("log_y", "", "Logarithmic").preset(false),
       option<bool>("markers", "", "Mark the points of lines").preset(true),
+      option<bool>("direct_labels", "", "Names beside the lines, no legend").preset(false),
       option<std::vector<std::string>>("categories", "", "Names below the bars"),
       option<std::vector<ChartReference>>("references", "", "Dashed lines: list of {at =, across = \"horizontal\"|\"vertical\", label =}"),
       option<int>("bins", "", "Of a histogram; 0: chosen from the data").at_least(0).at_most(10000).preset(0),
@@ -135,6 +137,7 @@ Chart make_chart(const Options& o) {
   chart.log_x = o.get<bool>("log_x");
   chart.log_y = o.get<bool>("log_y");
   chart.markers = o.get<bool>("markers");
+  chart.direct_labels = o.get<bool>("direct_labels");
   chart.bins = o.get<int>("bins");
   if (o.has("categories")) chart.categories = o.get<std::vector<std::string>>("categories");
   if (o.has("references")) chart.references = o.get<std::vector<ChartReference>>("references");
@@ -146,8 +149,34 @@ Chart make_chart(const Options& o) {
   return chart;
 }
 
+Schema sheet_options() {
+  return Schema{option<std::string>("title", "", "Above all of them"),
+                option<int>("columns", "", "Charts in a row; 0: as many as rows").at_least(0).at_most(40).preset(0),
+                option<std::array<int, 2>>("size", "pixels", "{width, height} of the whole; default {1600, 1200}")}
+      .with_list(Value<Chart>::kind(), "charts", "Charts, row by row");
+}
+
+ChartSheet make_sheet(const Options& o) {
+  ChartSheet sheet;
+  sheet.title = o.maybe<std::string>("title").value_or("");
+  sheet.charts = o.list<Chart>();
+  sheet.columns = o.get<int>("columns");
+  if (const auto size = o.maybe<std::array<int, 2>>("size")) {
+    sheet.width = (*size)[0];
+    sheet.height = (*size)[1];
+  }
+  check_sheet(sheet);
+  return sheet;
+}
+
 Schema accuracy_options() {
-  return Schema{option<std::vector<int>>("segments", "", "Numbers of segments of every rod; default {10, 20, 40, 80, 160, 320}")} +
+  return Schema{
+             option<std::vector<int>>("segments", "", "Numbers of segments of every rod; default {10, 20, 40, 80, 160, 320}"),
+             option<bool>("extrapolate", "", "Richardson: each row solves with half its segments too").preset(false),
+             option<Function>("exact", "", "function(s, rod): the exact centre line where it is known, at an arc length in m of "
+                                           "the rod with this name; default: a fine solution is the reference"),
+             option<double>("repeat", "s", "For how long each solve is repeated; at least three times")
+                 .at_least(0).at_most(3600).preset(0.05)} +
          solve_schema() + timeout_schema();
 }
 
@@ -155,6 +184,14 @@ Accuracy make_accuracy(lua_State* L, const Scene& scene, const Options& o) {
   AccuracyOptions options;
   if (o.has("segments")) options.segments = o.get<std::vector<int>>("segments");
   options.solve = solve_options(o);
+  options.extrapolate = o.get<bool>("extrapolate");
+  options.seconds_each = o.get<double>("repeat");
+  if (o.has("exact"))
+    options.exact = [L, &scene, exact = o.get<Function>("exact")](std::size_t rod, double s) {
+      const Vec3 place = exact.call<Vec3>(L, "study.accuracy: exact", s, scene.rods()[rod]->name());
+      if (!all_finite(place)) throw UsageError("study.accuracy: 'exact' returned a place that is not finite at s = " + number_text(s) + " m");
+      return place;
+    };
   return study_accuracy(scene, options, run_context(L, o));
 }
 
@@ -162,6 +199,7 @@ void bind_accuracy(lua_State* L) {
   Class<AccuracyRow>(L, "One number of segments in an accuracy study")
       .property("segments", "", "Of every rod", [](const AccuracyRow& r) { return r.segments; })
       .property("seconds", "s", "Median of repeated cold solves", [](const AccuracyRow& r) { return r.seconds; })
+      .property("fastest", "s", "The shortest of them", [](const AccuracyRow& r) { return r.fastest; })
       .property("error", "m", "Against the reference", [](const AccuracyRow& r) { return r.error; })
       .property("order", "", "Observed against the row before; NaN in the first", [](const AccuracyRow& r) { return r.order; })
       .property("estimate", "m", "The solver's own estimate; NaN unless asked for and valid", [](const AccuracyRow& r) { return r.estimate; })
@@ -176,7 +214,7 @@ void bind_accuracy(lua_State* L) {
       .property("message", "", "Why it is not complete", [](const Accuracy& a) { return a.message; })
       .property("rows", "", "One for each number of segments", [](const Accuracy& a) { return a.rows; })
       .property("element", "", "Which element", [](const Accuracy& a) { return a.element(); })
-      .property("reference_segments", "", "Of the reference solution", [](const Accuracy& a) { return a.reference_segments; })
+      .property("reference_segments", "", "Of the reference solution; 0: exact", [](const Accuracy& a) { return a.reference_segments; })
       .property("reference_uncertainty", "m", "What is not known of the reference", [](const Accuracy& a) { return a.reference_uncertainty; })
       .method("chart",
               {.options = {option<std::vector<Accuracy>>("with", "", "Other accuracy studies to draw beside this one"),
@@ -205,6 +243,17 @@ void bind_study(lua_State* L) {
         return Card("chart").row("kind", chart_kinds[static_cast<std::size_t>(chart.kind)])
             .row("series", std::to_string(chart.series.size())).text();
       });
+  Class<ChartSheet>(L, "Charts side by side")
+      .method("save", {.takes = {"path"}, .options = timeout_schema(), .does = "Draws them into one .png or .svg; a missing folder is created.",
+                       .example = "local c = study.chart{series = {{name = \"sag\", x = {1, 2, 3}, y = {1, 4, 9}}}}\n"
+                                  "study.sheet{c, c}:save(\"sheet.svg\")"},
+              [](lua_State* state, const ChartSheet& sheet, const std::string& path, const Options& o) {
+                const ChartReport report = save_sheet(sheet, path, run_context(state, o));
+                return SavedFile{path, report.status, report.seconds};
+              })
+      .tostring([](const ChartSheet& sheet) {
+        return Card("sheet of charts").row("charts", std::to_string(sheet.charts.size())).text();
+      });
   bind_accuracy(L);
   Module(L, "study", "Charts, and what a result costs")
       .function("chart",
@@ -213,6 +262,11 @@ void bind_study(lua_State* L) {
                             "  series = {{name = \"hose\", x = {1.0, 1.1, 1.2}, y = {12, 95, 160}}}}\n"
                             "print(c)"},
                 make_chart)
+      .function("sheet",
+                {.options = sheet_options(), .does = "Charts side by side in one picture; draw it with :save(path).",
+                 .example = "local c = study.chart{series = {{name = \"sag\", x = {1, 2, 3}, y = {1, 4, 9}}}}\n"
+                            "print(study.sheet{c, c, c, title = \"Sags\"})"},
+                make_sheet)
       .function("accuracy",
                 {.takes = {"scene"}, .options = accuracy_options(),
                  .does = "Solves a scene with more and more segments: error, order and time of each.",

@@ -72,6 +72,7 @@ template <> inline constexpr const char* class_name<Explanation> = "explanation"
 template <> inline constexpr const char* class_name<ExplainedItem> = "explained_item";
 template <> inline constexpr const char* class_name<View> = "view";
 template <> inline constexpr const char* class_name<Chart> = "chart";
+template <> inline constexpr const char* class_name<ChartSheet> = "sheet";
 template <> inline constexpr const char* class_name<Accuracy> = "accuracy";
 template <> inline constexpr const char* class_name<AccuracyRow> = "accuracy_row";
 

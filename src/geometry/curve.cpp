@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <sstream>
+#include <tuple>
 
 #include "base/error.h"
 
@@ -64,6 +65,20 @@ Curve Curve::spline(const std::vector<Vec3>& points, const SplineEnds& ends) {
     if (*end && !(all_finite(**end) && (*end)->norm() > 0))
       throw UsageError(std::string("curve.spline: the direction at the ") + name + " is not a finite vector other than zero");
   return {"spline", points, make_spline_path(points, ends)};
+}
+
+Curve Curve::helix(double radius, double pitch, double turns, bool left_handed) {
+  for (const auto& [name, value, positive] :
+       {std::tuple{"radius", radius, true}, std::tuple{"pitch", pitch, false}, std::tuple{"turns", turns, true}}) {
+    if (std::isfinite(value) && (!positive || value > 0)) continue;
+    std::ostringstream said;
+    said << "curve.helix: '" << name << "' is " << value << "; a finite number" << (positive ? " above 0" : "") << " expected";
+    throw UsageError(said.str());
+  }
+  auto path = make_helix_path(radius, pitch, turns, left_handed);
+  if (!std::isfinite(path->length())) throw UsageError("curve.helix: longer than a number can tell");
+  const std::vector<Vec3> ends{path->frame(0).at, path->frame(path->length()).at};
+  return {"helix", ends, std::move(path)};
 }
 
 double Curve::checked(double s) const {

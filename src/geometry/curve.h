@@ -1,4 +1,4 @@
-// Curves in space by arc length: polylines, straights with circular bends, and interpolating splines.
+// Curves in space by arc length: polylines, straights with circular bends, interpolating splines, and helices.
 #pragma once
 
 #include <memory>
@@ -9,7 +9,7 @@
 
 namespace tendril {
 
-/// What a curve is made of; curve.cpp, arc_path.cpp and spline_path.cpp hold the kinds.
+/// What a curve is made of; curve.cpp, arc_path.cpp, spline_path.cpp and helix_path.cpp hold the kinds.
 class CurvePath {
  public:
   virtual ~CurvePath() = default;
@@ -44,13 +44,18 @@ class Curve {
   };
   static Curve spline(const std::vector<Vec3>& points, const SplineEnds& ends = {});
 
-  const char* kind() const { return kind_; }  ///< "polyline", "pcc" or "spline"
-  const std::vector<Vec3>& points() const { return *points_; }  ///< those it was made from
+  /// The circular helix about the z axis that begins at (radius, 0, 0) and rises by `pitch` (m) a turn; d1 points to the
+  /// axis, so that curvature and torsion are constant in the section's axes. Throws UsageError unless radius and turns
+  /// are above 0 and all three are finite.
+  static Curve helix(double radius, double pitch, double turns, bool left_handed = false);
+
+  const char* kind() const { return kind_; }  ///< "polyline", "pcc", "spline" or "helix"
+  const std::vector<Vec3>& points() const { return *points_; }  ///< those it was made from; a helix: its ends
 
   double length() const { return path_->length(); }
 
   /// Place and orientation: d3 is the tangent; d1 and d2 turn about it no more than they must (rotation-minimising),
-  /// starting from those of Frame::looking along the first tangent. At a corner of a polyline: the part that follows.
+  /// starting from those of Frame::looking along the first tangent. (A helix: see there.) At a corner of a polyline: the part that follows.
   Frame at(double s) const;
 
   /// The curvature vector, 1/m: towards the middle of the bend, of length 1 / radius.
@@ -82,5 +87,6 @@ class Curve {
 std::unique_ptr<const CurvePath> make_polyline_path(const std::vector<Vec3>& points);
 std::unique_ptr<const CurvePath> make_pcc_path(const std::vector<Vec3>& points, const std::vector<double>& radii);
 std::unique_ptr<const CurvePath> make_spline_path(const std::vector<Vec3>& points, const Curve::SplineEnds& ends);
+std::unique_ptr<const CurvePath> make_helix_path(double radius, double pitch, double turns, bool left_handed);
 
 }  // namespace tendril

@@ -6,10 +6,12 @@
 //     E = h/2 e^T C^-1 e,   e = eps - eps0,   C = K^-1 + q ad_eps K^-1 ad_eps^T,   q = h^2/12,
 // which follows from minimising the energy over a linear variation of the strain with xi's Magnus expansion as the
 // constraint; W = C^-1 e is the wrench at mid-segment. q = 0 gives the second-order element with constant strain.
-// Gradient and second derivative are exact. With M x = ad_x^T W, u = K^-1 M eps and J = q (ad_eps K^-1 M - ad_u):
+// Where the reference rates vary by eps0' ds along the segment, e = A delta + q ad_eps delta' for the misfit's mean delta and
+// slope delta', A = I - q ad_eps0', and K^-1 above becomes A K^-1 A^T, a constant of the segment. (At rest r' = d3, so eps0'
+// is a change of the curvature alone.) Gradient and second derivative are exact. With M x = ad_x^T W, u = K^-1 M eps and J = q (ad_eps K^-1 M - ad_u):
 //     dE/dxi = W + q M u,     d2E/dxi2 = ((I - J)^T C^-1 (I - J) + q M K^-1 M)/h.
 // Not done: distributed load inside a segment (the weight's effect on stretch; relative size wL/EA), jumps of the
-// reference strain inside a segment.
+// reference strain or of its slope inside a segment.
 //
 // "Stress of the geometric terms": every term of the second derivative that is linear in W takes a wrench of its own, as
 // mixed-stress Newton wants; with the true wrench the second derivative is that of E.
@@ -25,6 +27,8 @@ struct Se3Segment {
   T h, q;
   V3<T> flexibility_v, flexibility_phi;  ///< 1/(GA1, GA2, EA) and 1/(EI1, EI2, GJ)
   V3<T> rate_v, rate_phi;
+  V3<T> slope_phi{};    ///< d(reference curvature)/ds, 1/m^2; read only where `varies`
+  bool varies = false;  ///< the reference curvature changes along the segment
 };
 
 /// Force-like pair: n (N) and m (N m), in the section's axes.
@@ -44,8 +48,16 @@ template <class T>
 struct SegmentGradient {
   T energy;
   V3<T> force, theta_a, theta_b;
-  Wrench<T> wrench;  ///< true wrench at mid-segment
+  Wrench<T> wrench;  ///< true wrench at mid-segment; where the reference varies, see strained_by
 };
+
+/// The wrench K delta that belongs to the misfit's mean delta = K^-1 A^T W: differs from the element's W where the
+/// reference varies.
+template <class T>
+inline Wrench<T> strained_by(const Se3Segment<T>& s, const Wrench<T>& w) {
+  if (!s.varies) return w;
+  return {w.n + s.q * cross(s.slope_phi, w.n), w.m + s.q * cross(s.slope_phi, w.m)};
+}
 
 /// Second derivative in (d = r_b - r_a world axes, theta_a, theta_b); db: rows d, columns theta_b.
 template <class T>
@@ -130,6 +142,14 @@ inline void solve_upper(const M6<T>& l, T (&x)[6]) {
   }
 }
 
+/// B diag(flexibility) B^T with B = I - q [slope_phi]: one half of A K^-1 A^T.
+template <class T>
+inline M3<T> varied_flexibility(const Se3Segment<T>& s, const V3<T>& flexibility) {
+  const M3<T> k = diagonal_matrix(flexibility), c = cross_matrix_of(s.slope_phi);
+  const M3<T> kc = k * c;
+  return k + s.q * (kc + transposed(kc)) - s.q * s.q * (c * kc);  // [x]^T = -[x]
+}
+
 /// Strain state shared by gradient and second derivative.
 template <class T>
 struct Se3Strain {
@@ -150,9 +170,11 @@ struct Se3Strain {
     const M3<T> kv = diagonal_matrix(s.flexibility_v), kp = diagonal_matrix(s.flexibility_phi);
     // C = K^-1 - q [Phi kv Phi + V kp V, V kp Phi; Phi kp V, Phi kp Phi]: the cross matrices are antisymmetric.
     const M3<T> vk = cv * kp, pk = cp * kp;
-    l.set(0, 0, kv - s.q * (cp * kv * cp + vk * cv));
+    const M3<T> rest_v = s.varies ? varied_flexibility(s, s.flexibility_v) : kv;
+    const M3<T> rest_phi = s.varies ? varied_flexibility(s, s.flexibility_phi) : kp;
+    l.set(0, 0, rest_v - s.q * (cp * kv * cp + vk * cv));
     l.set(1, 0, -s.q * (pk * cv));
-    l.set(1, 1, kp - s.q * (pk * cp));
+    l.set(1, 1, rest_phi - s.q * (pk * cp));
     factor(l);
   }
 
@@ -274,6 +296,14 @@ inline SegmentGradient<T> se3_deferred_gradient(const Se3Segment<T>& s, const T&
   Se3Segment<T> shifted = s;
   shifted.rate_v = s.rate_v + q * (cross(x.rate_phi, u.n) + cross(x.rate_v, u.m));
   shifted.rate_phi = s.rate_phi + q * cross(x.rate_phi, u.m);
+  if (s.varies) {
+    Se3Segment<T> corrected = s;
+    corrected.q = q;
+    const M3<T> v = detail::varied_flexibility(corrected, s.flexibility_v) - diagonal_matrix(s.flexibility_v);
+    const M3<T> phi = detail::varied_flexibility(corrected, s.flexibility_phi) - diagonal_matrix(s.flexibility_phi);
+    shifted.rate_v = shifted.rate_v + v * w.n;
+    shifted.rate_phi = shifted.rate_phi + phi * w.m;
+  }
   SegmentGradient<T> out = se3_gradient_of(shifted, x);
   const V3<T> n = with_w.n - w.n;
   const V3<T> f = transposed_times(x.a, n);

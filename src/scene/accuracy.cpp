@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "statics/solve.h"
+#include "statics/solver.h"
 
 namespace tendril {
 namespace {
@@ -41,15 +42,44 @@ const Equilibrium* first_failure(const std::vector<Equilibrium>& all) {
   return nullptr;
 }
 
-/// The centre line to compare with: a fine solution, extrapolated from a coarser one when that is sound.
+double least_slope(double before, double after) {
+  if (before * after <= 0) return 0;
+  return std::abs(before) < std::abs(after) ? before : after;
+}
+
+/// The centre line between the vertices, with its tangents from the strains too (Equilibrium::frame_at takes the directors,
+/// which is off by the strain times a part of the segment). The strain varies linearly along a segment, as slowly as towards
+/// its neighbours: it may jump where a load acts.
+Vec3 place_at(const Equilibrium& eq, double arc_length) {
+  const auto above = std::upper_bound(eq.s.begin(), eq.s.end(), arc_length);
+  const int last = static_cast<int>(eq.s.size()) - 2;
+  const int i = std::clamp<int>(static_cast<int>(above - eq.s.begin()) - 1, 0, last);
+  Vec3 half_change;
+  const Vec3 here = eq.strains[i];
+  for (int k = 0; k < 3; ++k) {
+    const double before = i > 0 ? here[k] - eq.strains[i - 1][k] : eq.strains[std::min(1, last)][k] - here[k];
+    const double after = i < last ? eq.strains[i + 1][k] - here[k] : before;
+    half_change[k] = 0.5 * least_slope(before, after);
+  }
+  const double h = eq.s[i + 1] - eq.s[i];
+  const double t = std::clamp((arc_length - eq.s[i]) / h, 0.0, 1.0), u = 1 - t;
+  const Vec3 ta = h * (eq.rotations[i] * Vec3(Vec3::UnitZ() + here - half_change));
+  const Vec3 tb = h * (eq.rotations[i + 1] * Vec3(Vec3::UnitZ() + here + half_change));
+  return (1 + 2 * t) * u * u * eq.points[i] + t * t * (3 - 2 * t) * eq.points[i + 1] + t * u * u * ta - t * t * u * tb;
+}
+
+/// The centre line to compare with: what is known exactly, else a fine solution, extrapolated from a coarser one when that
+/// is sound.
 struct Reference {
+  std::function<Vec3(std::size_t, double)> exact;
   std::vector<Equilibrium> coarse, fine;
   bool extrapolated = false;
   double uncertainty = 0;
 
   Vec3 at(std::size_t rod, double s) const {
-    const Vec3 best = fine[rod].frame_at(s).at;
-    return extrapolated ? Vec3(best + (best - coarse[rod].frame_at(s).at) / 15) : best;
+    if (exact) return exact(rod, s);
+    const Vec3 best = place_at(fine[rod], s);
+    return extrapolated ? Vec3(best + (best - place_at(coarse[rod], s)) / 15) : best;
   }
 };
 
@@ -57,18 +87,20 @@ double largest_distance(const std::vector<Equilibrium>& a, const std::vector<Equ
   double largest = 0;
   for (std::size_t k = 0; k < a.size(); ++k)
     for (std::size_t i = 0; i < a[k].s.size(); ++i)
-      largest = std::max(largest, (a[k].points[i] - b[k].frame_at(a[k].s[i]).at).norm());
+      largest = std::max(largest, (a[k].points[i] - place_at(b[k], a[k].s[i])).norm());
   return largest;
 }
 
 /// Solves with n, 2n and 4n segments; extrapolates when the differences fall by the factor 16 of a fourth-order element.
-Reference make_reference(const Scene& scene, const Surroundings* surroundings, int n, const SolveOptions& options,
+Reference make_reference(const Scene& scene, const Surroundings* surroundings, int n, const AccuracyOptions& options,
                          const RunContext& context, Accuracy& result) {
-  SolveOptions best = options;
+  Reference reference;
+  reference.exact = options.exact;
+  if (reference.exact) return reference;
+  SolveOptions best = options.solve;
   best.element = Element::se3;
   best.error = false;
-  best.tolerance = std::min(options.tolerance, 1e-11);
-  Reference reference;
+  best.tolerance = std::min(options.solve.tolerance, 1e-11);
   std::vector<Equilibrium> first;
   for (auto [target, segments] : {std::pair{&first, n}, std::pair{&reference.coarse, 2 * n}, std::pair{&reference.fine, 4 * n}}) {
     *target = solve_all(problems_of(scene, surroundings, segments), best, context);
@@ -89,33 +121,84 @@ Reference make_reference(const Scene& scene, const Surroundings* surroundings, i
   return reference;
 }
 
-AccuracyRow measure(const std::vector<RodProblem>& problems, const AccuracyOptions& options, const RunContext& context,
-                    const Reference& reference) {
-  AccuracyRow row;
-  row.segments = problems.front().rod.segments;
+/// What one row measures: a solution a rod, or two with half the segments in the first.
+struct Solutions {
+  std::vector<Equilibrium> half, whole;
+
+  const Equilibrium* failure() const {
+    const Equilibrium* failed = first_failure(half);
+    return failed ? failed : first_failure(whole);
+  }
+};
+
+/// The vertices' places, extrapolated where there is a coarser solution: then only those that both meshes have.
+void add_errors(const Solutions& solved, double order, const Reference& reference, double& largest) {
+  const double gain = 1 / (std::exp2(order) - 1);
+  for (std::size_t k = 0; k < solved.whole.size(); ++k) {
+    const Equilibrium& whole = solved.whole[k];
+    const std::size_t stride = solved.half.empty() ? 1 : 2;
+    for (std::size_t i = 0; i < whole.s.size(); i += stride) {
+      Vec3 place = whole.points[i];
+      if (stride == 2) place += gain * (place - solved.half[k].points[i / 2]);
+      largest = std::max(largest, (place - reference.at(k, whole.s[i])).norm());
+    }
+  }
+}
+
+/// One equilibrium a rod with every segment cut into two, so that every second vertex is one of the coarser mesh.
+std::vector<Equilibrium> solve_halved(const std::vector<RodProblem>& problems, const SolveOptions& options,
+                                      const RunContext& context) {
+  std::vector<Equilibrium> all;
+  for (const RodProblem& problem : problems) {
+    RodSolver solver(problem, options, problem.rod.segments, 2);
+    all.push_back(solver.solve(context, nullptr));
+    if (!all.back().ok()) break;
+  }
+  return all;
+}
+
+Solutions solve_row(const Scene& scene, const Surroundings* surroundings, int segments, const AccuracyOptions& options,
+                    const RunContext& context, std::vector<double>& seconds) {
   SolveOptions timed = options.solve;
   timed.error = false;
-  std::vector<double> seconds;
-  std::vector<Equilibrium> all;
+  const std::vector<RodProblem> problems =
+      problems_of(scene, surroundings, options.extrapolate ? segments / 2 : segments);
+  Solutions solved;
   double spent = 0;
-  while (seconds.size() < 3 || (spent < options.seconds_each && seconds.size() < 200)) {
+  while (seconds.size() < 3 || (spent < options.seconds_each && seconds.size() < 2000)) {
     const Clock::time_point start = Clock::now();
-    all = solve_all(problems, timed, context);
+    if (options.extrapolate) {
+      solved.half = solve_all(problems, timed, context);
+      solved.whole = solve_halved(problems, timed, context);
+    } else {
+      solved.whole = solve_all(problems, timed, context);
+    }
     seconds.push_back(std::chrono::duration<double>(Clock::now() - start).count());
     spent += seconds.back();
-    if (first_failure(all)) break;
+    if (solved.failure()) break;
   }
-  std::nth_element(seconds.begin(), seconds.begin() + seconds.size() / 2, seconds.end());
-  row.seconds = seconds[seconds.size() / 2];
+  return solved;
+}
+
+AccuracyRow measure(const Scene& scene, const Surroundings* surroundings, int segments, const AccuracyOptions& options,
+                    const RunContext& context, const Reference& reference) {
+  AccuracyRow row;
+  row.segments = segments;
   row.error = row.order = row.estimate = unknown;
-  for (const Equilibrium& eq : all) row.iterations += eq.iterations;
-  const Equilibrium* failed = first_failure(all);
+  std::vector<double> seconds;
+  const Solutions solved = solve_row(scene, surroundings, segments, options, context, seconds);
+  std::sort(seconds.begin(), seconds.end());
+  row.fastest = seconds.front();
+  row.seconds = seconds[seconds.size() / 2];
+  for (const auto* all : {&solved.half, &solved.whole})
+    for (const Equilibrium& eq : *all) row.iterations += eq.iterations;
+  const Equilibrium* failed = solved.failure();
   row.status = failed ? failed->status : Status::solved;
   if (failed) return row;
   row.error = 0;
-  for (std::size_t k = 0; k < all.size(); ++k)
-    for (std::size_t i = 0; i < all[k].s.size(); ++i)
-      row.error = std::max(row.error, (all[k].points[i] - reference.at(k, all[k].s[i])).norm());
+  const SolveOptions& used = options.solve;
+  const double order = used.element == Element::se3 ? 4 : used.clamp == ClampRule::thesis ? 1 : 2;
+  add_errors(solved, order, reference, row.error);
   return row;
 }
 
@@ -135,6 +218,10 @@ void check(const Scene& scene, const AccuracyOptions& options) {
     if (n < 1 || n > Rod::max_segments / 4)
       throw UsageError("study.accuracy: 'segments' has " + std::to_string(n) + ", expected 1 to " +
                        std::to_string(Rod::max_segments / 4));
+  for (const int n : options.segments)
+    if (options.extrapolate && n % 2 != 0)
+      throw UsageError("study.accuracy: 'segments' has " + std::to_string(n) +
+                       ", expected even numbers: extrapolation solves with half as many too");
 }
 
 }  // namespace
@@ -144,23 +231,25 @@ bool Accuracy::unresolved() const {
 }
 
 std::string Accuracy::element() const {
-  if (solve.element == Element::se3) return "se3";
-  return solve.clamp == ClampRule::thesis ? "staggered, thesis's clamp" : "staggered";
+  const std::string plain = solve.element == Element::se3          ? "se3"
+                            : solve.clamp == ClampRule::thesis ? "staggered, thesis's clamp"
+                                                               : "staggered";
+  return plain + (row_extrapolated ? ", extrapolated" : "");
 }
 
 Accuracy study_accuracy(const Scene& scene, const AccuracyOptions& options, const RunContext& context) {
   check(scene, options);
   Accuracy result;
   result.solve = options.solve;
+  result.row_extrapolated = options.extrapolate;
   const auto surroundings = scene.surroundings();
   const int finest = *std::max_element(options.segments.begin(), options.segments.end());
-  const Reference reference =
-      make_reference(scene, surroundings.get(), finest, options.solve, context, result);
+  const Reference reference = make_reference(scene, surroundings.get(), finest, options, context, result);
   if (result.status != Status::solved) return result;
   for (const int n : options.segments) {
-    const std::vector<RodProblem> problems = problems_of(scene, surroundings.get(), n);
-    AccuracyRow row = measure(problems, options, context, reference);
-    if (options.solve.error && row.status == Status::solved) row.estimate = estimate_of(problems, options.solve, context);
+    AccuracyRow row = measure(scene, surroundings.get(), n, options, context, reference);
+    if (options.solve.error && row.status == Status::solved)
+      row.estimate = estimate_of(problems_of(scene, surroundings.get(), n), options.solve, context);
     if (!result.rows.empty() && result.rows.back().error > 0 && row.error > 0 && result.rows.back().segments != n)
       row.order = std::log(result.rows.back().error / row.error) / std::log(double(n) / result.rows.back().segments);
     result.rows.push_back(row);

@@ -150,13 +150,16 @@ void check_series(const Chart& chart, const ChartSeries& series) {
     refuse("series '" + series.name + "': has x values, but bars and histograms take y only");
 }
 
+void check_size(int width, int height) {
+  for (int size : {width, height})
+    if (size < 64 || size > 8192)
+      refuse("size " + std::to_string(width) + " x " + std::to_string(height) + " pixels, expected 64 ... 8192 each");
+}
+
 }  // namespace
 
 void check_chart(const Chart& chart) {
-  for (int size : {chart.width, chart.height})
-    if (size < 64 || size > 8192)
-      refuse("size " + std::to_string(chart.width) + " x " + std::to_string(chart.height) +
-             " pixels, expected 64 ... 8192 each");
+  check_size(chart.width, chart.height);
   if (chart.series.empty()) refuse("nothing to show: no series");
   if (chart.series.size() > 12) refuse(std::to_string(chart.series.size()) + " series, expected 1 to 12");
   if (chart.bins < 0 || chart.bins > 10000)
@@ -171,16 +174,29 @@ void check_chart(const Chart& chart) {
     if (!std::isfinite(line.at)) refuse("reference line '" + line.label + "' is at NaN or infinity");
 }
 
-ChartReport save_chart(const Chart& chart, const std::string& path, const RunContext& context) {
-  const auto start = RunContext::Clock::now();
+void check_sheet(const ChartSheet& sheet) {
+  check_size(sheet.width, sheet.height);
+  if (sheet.charts.empty() || sheet.charts.size() > 40)
+    refuse(std::to_string(sheet.charts.size()) + " charts on a sheet, expected 1 to 40");
+  if (sheet.columns < 0 || sheet.columns > 40)
+    refuse(std::to_string(sheet.columns) + " columns, expected 1 ... 40, or 0 to choose");
+  for (const Chart& chart : sheet.charts) check_chart(chart);
+}
+
+namespace {
+
+bool is_svg(const std::string& path) {
   const bool svg = ends_in(path, ".svg");
   if (!svg && !ends_in(path, ".png")) refuse("cannot write '" + path + "': expected a name that ends in .png or .svg");
-  check_chart(chart);
+  return svg;
+}
+
+/// Draws what `make_script` gives for a file's name.
+template <class Make>
+ChartReport save(const std::string& path, const RunContext& context, Make make_script) {
+  const auto start = RunContext::Clock::now();
   const Temporary drawn;
-  const ChartScript script = chart_script(chart, drawn.path, svg);
-  if (script.drawn == 0)
-    refuse("nothing to show: none of " + std::to_string(script.dropped) + " points is finite" +
-           (chart.log_x || chart.log_y ? " and positive on the log axes" : ""));
+  const ChartScript script = make_script(drawn.path);
   ChartReport report;
   report.drawn = script.drawn, report.dropped = script.dropped;
   Gnuplot gnuplot;
@@ -193,6 +209,31 @@ ChartReport save_chart(const Chart& chart, const std::string& path, const RunCon
   }
   report.seconds = std::chrono::duration<double>(RunContext::Clock::now() - start).count();
   return report;
+}
+
+void check_points(const ChartScript& script, const Chart& chart) {
+  if (script.drawn == 0)
+    refuse((chart.title.empty() ? "" : "'" + chart.title + "': ") + "nothing to show: none of " + std::to_string(script.dropped) +
+           " points is finite" + (chart.log_x || chart.log_y ? " and positive on the log axes" : ""));
+}
+
+}  // namespace
+
+ChartReport save_chart(const Chart& chart, const std::string& path, const RunContext& context) {
+  const bool svg = is_svg(path);
+  check_chart(chart);
+  return save(path, context, [&](const std::string& output) {
+    const ChartScript script = chart_script(chart, output, svg);
+    check_points(script, chart);
+    return script;
+  });
+}
+
+ChartReport save_sheet(const ChartSheet& sheet, const std::string& path, const RunContext& context) {
+  const bool svg = is_svg(path);
+  check_sheet(sheet);
+  for (const Chart& chart : sheet.charts) check_points(chart_script(chart, "", svg), chart);
+  return save(path, context, [&](const std::string& output) { return sheet_script(sheet, output, svg); });
 }
 
 }  // namespace tendril

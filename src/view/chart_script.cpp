@@ -7,6 +7,7 @@
 
 #include "view/histogram.h"
 #include "view/legend_corner.h"
+#include "view/line_labels.h"
 
 namespace tendril {
 namespace {
@@ -15,6 +16,7 @@ namespace {
 constexpr std::array<const char*, 12> palette{"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00",
                                               "#4D4D4D", "#004466", "#803800", "#005C44", "#7A4864", "#8C6000"};
 constexpr std::size_t most_marked = 200;
+constexpr int smallest_on_sheet = 13;  // pixels of a letter
 
 std::string number(double value) {
   char text[40];
@@ -30,6 +32,7 @@ struct Drawable {
   };
   std::vector<Series> series;
   std::size_t dropped = 0;
+  int letter = 0;  ///< pixels of the chart's letters
 };
 
 Drawable drawable_of(const Chart& chart) {
@@ -50,17 +53,23 @@ Drawable drawable_of(const Chart& chart) {
   return result;
 }
 
-void add_look(const Chart& chart, const std::string& output, bool svg, std::string& text) {
-  const double scale = std::min(chart.width / 1200.0, chart.height / 800.0);
-  const int font = std::max(6, static_cast<int>(std::lround(18 * scale)));
-  const std::string size = std::to_string(chart.width) + "," + std::to_string(chart.height);
+/// Pixels of the letters.
+int font_size(int width, int height) {
+  return std::max(6, static_cast<int>(std::lround(18 * std::min(width / 1200.0, height / 800.0))));
+}
+
+void add_terminal(int width, int height, int font, const std::string& output, bool svg, std::string& text) {
+  const std::string size = std::to_string(width) + "," + std::to_string(height);
   text += svg ? "set terminal svg noenhanced size " + size + " background rgb '#ffffff' font 'DejaVu Sans," +
                     std::to_string(font) + "'\n"
               : "set terminal pngcairo noenhanced size " + size + " background rgb '#ffffff' font 'DejaVu Sans," +
                     std::to_string(std::max(5, font * 3 / 4)) + "'\n";
-  text += "set output " + gnuplot_quoted(output) + "\n";
+  text += "set output " + gnuplot_quoted(output) + "\nset encoding utf8\n";
+}
+
+void add_look(const Chart& chart, int font, bool svg, std::string& text) {
   text +=
-      "set encoding utf8\nset border 3 lc rgb '#404040' lw 1.2\nset tics nomirror out scale 0.6 textcolor rgb "
+      "set border 3 lc rgb '#404040' lw 1.2\nset tics nomirror out scale 0.6 textcolor rgb "
       "'#303030'\n"
       "set grid back lc rgb '#dcdcdc' lw 0.8 lt 1\nset rmargin 3\nset key top right reverse Left samplen 2.2 spacing "
       "1.25 textcolor rgb '#303030'\n";
@@ -138,6 +147,27 @@ void add_plot(const std::vector<std::string>& parts, std::string& text) {
   text += "\n";
 }
 
+constexpr double letter_width = 0.62, line_height = 1.35;  // shares of a letter's size
+constexpr double axes_width = 0.86, axes_height = 0.8;     // shares of the chart that lie within the axes
+
+/// Names beside the lines, tagged behind those of the reference lines.
+void add_line_labels(const Drawable& data, const std::vector<ChartTrace>& traces, const Chart& chart, std::string& text) {
+  const double letter = data.letter;
+  std::vector<double> widths;
+  for (const Drawable::Series& series : data.series)
+    widths.push_back(letter_width * letter * static_cast<double>(series.name.size()) / (axes_width * chart.width));
+  const std::vector<LinePlace> places = line_labels(traces, widths, line_height * letter / (axes_height * chart.height));
+  for (std::size_t i = 0; i < data.series.size(); ++i) {
+    const Drawable::Series& series = data.series[i];
+    if (series.points.empty() || series.name.empty()) continue;
+    const auto& point = series.points[places[i].point];
+    text += "set label " + std::to_string(1001 + i) + " " + gnuplot_quoted(series.name) + " at first " + number(point[0]) +
+            ", first " + number(point[1]) + (places[i].left ? " right offset -0.8,0" : " left offset 0.8,0") +
+            " front textcolor rgb '" + palette[i % palette.size()] + "'\n";
+  }
+  text += "set key off\n";
+}
+
 /// Moves the legend of lines and points to where it hides least.
 void add_legend(const Chart& chart, const Drawable& data, const Span& x, const Span& y, std::string& text) {
   const auto share = [](const Span& span, bool log, double v) {
@@ -151,6 +181,10 @@ void add_legend(const Chart& chart, const Drawable& data, const Span& x, const S
     for (const auto& p : series.points) trace.push_back({share(x, chart.log_x, p[0]), share(y, chart.log_y, p[1])});
     traces.push_back(std::move(trace));
     rows += !series.points.empty() && !series.name.empty();
+  }
+  if (chart.direct_labels) {
+    add_line_labels(data, traces, chart, text);
+    return;
   }
   text += std::string("set key ") + legend_corner(traces, rows, chart.kind == ChartKind::lines) + "\n";
 }
@@ -276,16 +310,49 @@ std::string gnuplot_quoted(const std::string& text) {
   return quoted + "\"";
 }
 
-ChartScript chart_script(const Chart& chart, const std::string& output, bool svg) {
-  const Drawable data = drawable_of(chart);
-  ChartScript script;
-  script.dropped = data.dropped;
+namespace {
+
+void add_chart(const Chart& chart, int font, bool svg, ChartScript& script) {
+  Drawable data = drawable_of(chart);
+  data.letter = font;
+  script.dropped += data.dropped;
   for (const Drawable::Series& series : data.series) script.drawn += series.points.size();
-  add_look(chart, output, svg, script.text);
+  add_look(chart, font, svg, script.text);
   if (chart.kind == ChartKind::bars) add_bars(chart, data, script.text);
   else if (chart.kind == ChartKind::histogram) add_histogram(chart, data, script.text);
   else add_points(chart, data, script.text);
+}
+
+}  // namespace
+
+ChartScript chart_script(const Chart& chart, const std::string& output, bool svg) {
+  const int font = font_size(chart.width, chart.height);
+  ChartScript script;
+  add_terminal(chart.width, chart.height, font, output, svg, script.text);
+  add_chart(chart, font, svg, script);
   script.text += "unset output\n";
+  return script;
+}
+
+ChartScript sheet_script(const ChartSheet& sheet, const std::string& output, bool svg) {
+  const int count = static_cast<int>(sheet.charts.size());
+  const int columns = sheet.columns > 0 ? std::min(sheet.columns, count) : static_cast<int>(std::ceil(std::sqrt(count)));
+  const int rows = (count + columns - 1) / columns;
+  const int width = sheet.width / columns, height = sheet.height / rows;
+  const int font = std::max(smallest_on_sheet, font_size(width, height));
+  ChartScript script;
+  add_terminal(sheet.width, sheet.height, font, output, svg, script.text);
+  script.text += "set multiplot layout " + std::to_string(rows) + "," + std::to_string(columns) + " rowsfirst";
+  if (!sheet.title.empty())
+    script.text += " title " + gnuplot_quoted(sheet.title) + " font 'DejaVu Sans" + (svg ? "," : ":Bold,") +
+                   std::to_string(font * 5 / 4) + "' textcolor rgb '#202020'";
+  script.text += "\n";
+  for (Chart panel : sheet.charts) {
+    panel.width = width, panel.height = height;
+    script.text += "reset\n";
+    add_chart(panel, font, svg, script);
+  }
+  script.text += "unset multiplot\nunset output\n";
   return script;
 }
 

@@ -16,6 +16,9 @@ struct ChartScript {
 /// `output`: the file that gnuplot writes; `svg`: its kind, else PNG.
 ChartScript chart_script(const Chart& chart, const std::string& output, bool svg);
 
+/// All charts of a sheet in one picture.
+ChartScript sheet_script(const ChartSheet& sheet, const std::string& output, bool svg);
+
 /// `text` in double quotes for gnuplot: quotes, backslashes, controls and the marks of enhanced text lose their
 /// meaning.
 std::string gnuplot_quoted(const std::string& text);

@@ -32,6 +32,17 @@ check.case("a spline passes through its points", function()
   check.is_true(c:min_bend_radius() > 0)
 end)
 
+check.case("a helix about z", function()
+  local c = curve.helix {radius = 0.02, pitch = 0.01, turns = 3}
+  check.equal(c.kind, "helix")
+  check.near(c.length, 3 * math.sqrt((2 * math.pi * 0.02) ^ 2 + 0.01 ^ 2), 1e-12)
+  check.near(c:at(c.length).at, vec(0.02, 0, 0.03), 1e-12)
+  check.near(c:at(0).up, vec(-1, 0, 0), 1e-12)
+  check.is_true(curve.helix {radius = 1, pitch = 1, turns = 1, left_handed = true}:at(0.1).at.y < 0)
+  check.raises(function() curve.helix {radius = 1, turns = 1} end, "'pitch'")
+  check.raises(function() curve.helix {radius = -1, pitch = 1, turns = 1} end, "'radius'")
+end)
+
 check.case("what is no curve", function()
   check.raises(function() curve.polyline {{0, 0, 0}} end, "polyline")
   check.raises(function() curve.polyline {{0, 0, 0}, {0, 0, 0}} end, "polyline")

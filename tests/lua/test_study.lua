@@ -15,6 +15,16 @@ check.case("charts of every kind", function()
   check.is_true(study.chart {kind = "histogram", bins = 3, series = {{y = {3, 4, 4.5, 5}}}}:save(out .. "/histogram.png").ok)
 end)
 
+check.case("a sheet of charts", function()
+  local c = study.chart {series = {{name = "a", x = {1, 2, 3}, y = {1, 10, 5}}}, direct_labels = true}
+  local sheet = study.sheet {c, c, c, title = "Three", columns = 2, size = {800, 600}}
+  check.contains(sheet, "3")
+  check.is_true(sheet:save(out .. "/sheet.png").ok)
+  check.raises(function() study.sheet {} end, "0 charts")
+  check.raises(function() study.sheet {c, 5} end, "study.sheet")
+  check.raises(function() study.sheet {c, colums = 2} end, "did you mean 'columns'?")
+end)
+
 check.case("charts that cannot be drawn", function()
   check.raises(function() study.chart {series = {}} end, "chart")
   check.raises(function() study.chart {} end, "'series'")
@@ -48,6 +58,30 @@ check.case("the accuracy study: order, table, chart", function()
   check.is_true(b.rows[2].order > 0.8 and b.rows[2].order < 1.3)
   check.contains(b, "thesis")
   check.is_true(a:chart {with = {b}, title = "Both"}:save(out .. "/accuracy.png").ok)
+end)
+
+check.case("the accuracy study: extrapolated, and against a closed form", function()
+  local s = hose.scene()
+  local plain = study.accuracy(s, {segments = {20, 40}, element = "staggered", ["repeat"] = 0})
+  local better = study.accuracy(s, {segments = {20, 40}, element = "staggered", extrapolate = true, ["repeat"] = 0})
+  check.is_true(better.rows[2].error < plain.rows[2].error / 5)
+  check.is_true(better.rows[1].fastest > 0 and better.rows[1].fastest <= better.rows[1].seconds)
+  check.equal(better.element, "staggered, extrapolated")
+  -- As if the hose were straight: then the error is its sag.
+  local names = {}
+  local sag = study.accuracy(s, {segments = {20}, ["repeat"] = 0, exact = function(at, name)
+    names[name] = true
+    return vec(at, 0, 0)
+  end})
+  check.is_true(sag.rows[1].error > 0.1)
+  check.equal(sag.reference_segments, 0)
+  check.contains(sag, "reference: exact")
+  check.is_true(next(names) ~= nil)
+  check.raises(function() study.accuracy(s, {segments = {21}, extrapolate = true}) end, "has 21, expected even numbers")
+  check.raises(function() study.accuracy(s, {segments = {20}, exact = function() return 5 end}) end, "exact", "expected a vec")
+  check.raises(function() study.accuracy(s, {segments = {20}, exact = function() error("none") end}) end, "none")
+  check.raises(function() study.accuracy(s, {segments = {20}, exact = 5}) end, "'exact'")
+  check.raises(function() study.accuracy(s, {segments = {20}, ["repeat"] = -1}) end, "'repeat'")
 end)
 
 check.case("accuracy studies that cannot be made", function()

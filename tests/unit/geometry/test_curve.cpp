@@ -214,3 +214,37 @@ TEST_CASE("curves refuse what cannot be", "[curve]") {
   CHECK(spline.length() == Approx(2));
   CHECK(spline.min_bend_radius() == infinity);
 }
+
+TEST_CASE("a helix: closed forms, frames with a constant curvature and torsion, either hand", "[curve]") {
+  const double radius = 0.03, pitch = 0.02, turns = 2.5, rise = pitch / (2 * units::pi);
+  const double around = radius * radius + rise * rise;
+  for (const bool left : {false, true}) {
+    CAPTURE(left);
+    const Curve curve = Curve::helix(radius, pitch, turns, left);
+    CHECK(curve.length() == Approx(2 * units::pi * turns * std::sqrt(around)));
+    CHECK(curve.at(0).at.isApprox(Vec3(radius, 0, 0)));
+    CHECK(curve.at(curve.length()).at.isApprox(Vec3(-radius, 0, pitch * turns)));
+    CHECK(curve.points().size() == 2);
+    CHECK(curve.points().back().isApprox(curve.at(curve.length()).at));
+    CHECK(curve.min_bend_radius() == Approx(around / radius));
+    CHECK(curve.at(1e-3).at.y() * (left ? -1 : 1) > 0);
+    CHECK(curve.breaks().empty());
+    CHECK(std::string(curve.kind()) == "helix");
+    const double h = 1e-6;
+    for (const double s : {0.01, 0.1, 0.3}) {
+      const Frame here = curve.at(s), before = curve.at(s - h), after = curve.at(s + h);
+      CHECK(((after.at - before.at) / (2 * h)).isApprox(here.d3(), 1e-7));
+      CHECK(((after.d3() - before.d3()) / (2 * h)).isApprox(curve.curvature(s), 1e-6));
+      CHECK(here.d1().isApprox(-Vec3(here.at.x(), here.at.y(), 0).normalized(), 1e-9));
+      // Curvature about d2 towards the axis, torsion about d3: the same at every place.
+      const Vec3 rates = log_rotation(before.rotation.conjugate() * after.rotation) / (2 * h);
+      CHECK((rates - Vec3(0, radius / around, (left ? -1 : 1) * rise / around)).norm() < 1e-5);
+    }
+  }
+  CHECK(Curve::helix(1, 0, 1).length() == Approx(2 * units::pi));  // a circle
+  CHECK(Curve::helix(1, -1, 1).at(0.1).at.z() < 0);
+  CHECK_THROWS_WITH(Curve::helix(0, 1, 1), "curve.helix: 'radius' is 0; a finite number above 0 expected");
+  CHECK_THROWS_WITH(Curve::helix(1, infinity, 1), Catch::Matchers::Contains("'pitch' is inf; a finite number expected"));
+  CHECK_THROWS_WITH(Curve::helix(1, 1, -2), Catch::Matchers::Contains("'turns' is -2"));
+  CHECK_THROWS_WITH(Curve::helix(1e300, 1, 1e300), Catch::Matchers::Contains("longer than a number can tell"));
+}

@@ -239,3 +239,56 @@ TEST_CASE("a gnuplot that fails or hangs does no harm") {
   setenv("PATH", path.c_str(), 1);
   std::filesystem::remove_all(folder);
 }
+
+TEST_CASE("names beside the lines take the legend's place") {
+  Chart chart = small_chart();
+  chart.direct_labels = true;
+  const std::string script = chart_script(chart, "out", true).text;
+  CHECK_THAT(script, Contains("set key off") && Contains("set label 1001 \"order 2\" at first"));
+  chart.direct_labels = false;
+  CHECK(count_of(chart_script(chart, "out", true).text, "set label") == 0);
+}
+
+TEST_CASE("a sheet holds its charts side by side") {
+  ChartSheet sheet;
+  sheet.title = "Two and one";
+  sheet.charts = {small_chart(), small_chart(), small_chart()};
+  sheet.charts[1].log_y = true;
+  sheet.charts[1].direct_labels = true;
+  sheet.charts[2].series[0].y[1] = NAN;
+  const ChartScript script = sheet_script(sheet, "out", false);
+  CHECK(script.drawn == 11);
+  CHECK(script.dropped == 1);
+  CHECK_THAT(script.text, Contains("set multiplot layout 2,2 rowsfirst title \"Two and one\"") && Contains("unset multiplot"));
+  CHECK(count_of(script.text, "\nplot ") == 3);
+  CHECK(count_of(script.text, "\nreset\n") == 3);  // a logarithmic axis does not reach the next chart
+  CHECK(count_of(script.text, "set terminal") == 1);
+  sheet.columns = 3;
+  CHECK_THAT(sheet_script(sheet, "out", true).text, Contains("layout 1,3"));
+  const auto folder = fresh_folder("sheet");
+  const ChartReport report = save_sheet(sheet, (folder / "sheet.png").string());
+  CHECK(report.status == Status::solved);
+  CHECK(report.drawn == 11);
+  CHECK(read_file((folder / "sheet.png").string()).substr(0, 8) == "\x89PNG\r\n\x1a\n");
+  save_sheet(sheet, (folder / "sheet.svg").string());
+  CHECK_THAT(read_file((folder / "sheet.svg").string()), Contains("Two and one") && Contains("width=\"1600\""));
+  std::filesystem::remove_all(folder);
+}
+
+TEST_CASE("sheets that cannot be drawn are refused with words") {
+  ChartSheet sheet;
+  CHECK_THROWS_WITH(save_sheet(sheet, "sheet.svg"), Contains("0 charts on a sheet, expected 1 to 40"));
+  sheet.charts.assign(41, small_chart());
+  CHECK_THROWS_WITH(save_sheet(sheet, "sheet.svg"), Contains("41 charts"));
+  sheet.charts.resize(2);
+  CHECK_THROWS_WITH(save_sheet(sheet, "sheet.pdf"), Contains("'sheet.pdf'") && Contains(".png or .svg"));
+  sheet.columns = -1;
+  CHECK_THROWS_WITH(save_sheet(sheet, "sheet.svg"), Contains("-1 columns"));
+  sheet.columns = 0;
+  sheet.width = 20;
+  CHECK_THROWS_WITH(save_sheet(sheet, "sheet.svg"), Contains("size 20 x 1200"));
+  sheet.width = 1000;
+  sheet.charts[1].title = "The second";
+  sheet.charts[1].series[0].y.assign(4, NAN);
+  CHECK_THROWS_WITH(save_sheet(sheet, "sheet.svg"), Contains("'The second'") && Contains("none of 4 points is finite"));
+}
