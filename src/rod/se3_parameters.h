@@ -7,6 +7,8 @@
 // those of the step's work, step . gradient: what an adjoint state asks for, in one pass for all parameters. The wrench
 // obeys C dW = de - dC W, and a function F(W, eps) is pulled back by y = C^-1 dF/dW:
 //     dF = (y + q (M_y u + M K^-1 M_y eps)) . deps - y . deps0 - sum_i (y_i W_i + q (M_y eps)_i U_i) d(1/K_i).
+// Where the reference curvature varies along the segment, A^T W and A^T y stand for W and y in the terms with d(1/K_i); A
+// depends on q times the curvature's slope alone, which is a turn: it stays too when the length changes.
 #pragma once
 
 #include "rod/se3_element.h"
@@ -61,18 +63,19 @@ template <class T>
 class Se3Slopes {
  public:
   Se3Slopes(const Se3Segment<T>& s, const Se3Ends<T>& ends)
-      : h_(s.h), q_(s.q), x_(s, ends), flexibility_{s.flexibility_v, s.flexibility_phi} {
+      : h_(s.h), q_(s.q), segment_(s), x_(s, ends), flexibility_{s.flexibility_v, s.flexibility_phi} {
     x_.g = jacobian_derivative(x_.phi, x_.d, x_.k, 1);
     w_ = x_.wrench(s);
+    strained_ = strained_by(s, w_);
     rate_ = {x_.rate_v, x_.rate_phi};
     e_ = {x_.rate_v - s.rate_v, x_.rate_phi - s.rate_phi};
     U_ = detail::coadjoint(w_, rate_);
     u_ = detail::times(flexibility_, U_);
   }
 
-  const Wrench<T>& wrench() const { return w_; }
+  const Wrench<T>& wrench() const { return strained_; }  ///< K times the misfit's mean: A^T W
   const Wrench<T>& rate() const { return rate_; }        ///< eps: v and phi over h, e3 included
-  const Wrench<T>& variation() const { return U_; }      ///< U: the wrench's change along the segment, ad_eps^T W
+  Wrench<T> variation() const { return detail::coadjoint(strained_, rate_); }  ///< its change along the segment
 
   /// Gradient by the position of the far end: the internal force, in world axes.
   V3<T> force() const {
@@ -86,7 +89,7 @@ class Se3Slopes {
     const Wrench<T> bent = adjoint(rate, u_) + adjoint(rate_, times(flexibility_, coadjoint(w_, rate)));
     const Wrench<T> w = inverse_c(rate - q_ * bent);
     const Wrench<T> U = coadjoint(w, rate_) + coadjoint(w_, rate);
-    const Wrench<T> flexibility = times(w_, w) + q_ * times(U_, U);
+    const Wrench<T> flexibility = times(strained_, strained_by(segment_, w)) + q_ * times(U_, U);
     const T half = filled<T>(0.5);
     return {dot(half * e_ - rate_, w) - half * dot(w_, rate), -(h_ * flexibility.n), -(h_ * flexibility.m),
             -(h_ * w.n), -(h_ * w.m)};
@@ -99,27 +102,27 @@ class Se3Slopes {
     const T growth = change.h / h_;
     const Wrench<T> kU = times(flexibility, U_);
     SegmentGradient<T> out;
-    out.wrench = inverse_c(-growth * rate_ - reference - times(flexibility, w_) - q_ * adjoint(rate_, kU));
+    out.wrench = inverse_c(-growth * rate_ - reference - spread(times(flexibility, strained_)) - q_ * adjoint(rate_, kU));
     const Wrench<T> u = kU + times(flexibility_, coadjoint(out.wrench, rate_));
     out.energy = change.h * dot(filled<T>(0.5) * e_ - rate_, w_) - h_ * dot(reference, w_) -
-                 filled<T>(0.5) * h_ * (dot(flexibility, times(w_, w_)) + q_ * dot(U_, kU));
+                 filled<T>(0.5) * h_ * (dot(flexibility, times(strained_, strained_)) + q_ * dot(U_, kU));
     to_ends(out.wrench + q_ * (growth * coadjoint(w_, u_) + coadjoint(out.wrench, u_) + coadjoint(w_, u)), out);
     return out;
   }
 
-  /// Of a function F(W, eps) whose partial derivatives are given: the derivatives by the ends, and by the parameters
-  /// through W and eps.
+  /// Of a function F(wrench(), eps) whose partial derivatives are given: the derivatives by the ends, and by the
+  /// parameters through both.
   void pull_back(const Wrench<T>& by_wrench, const Wrench<T>& by_rate, SegmentGradient<T>& ends,
                  Se3Parameters<T>& parameters) const {
     using namespace detail;
-    const Wrench<T> y = inverse_c(by_wrench);
+    const Wrench<T> y = inverse_c(spread(by_wrench));
     const Wrench<T> U = coadjoint(y, rate_);
     const Wrench<T> turned = coadjoint(y, u_) + coadjoint(w_, times(flexibility_, U));
     const T per_length = filled<T>(1) / h_;
     to_ends(per_length * (y + q_ * turned + by_rate), ends);
     ends.energy = T{};
     ends.wrench = Wrench<T>{};
-    const Wrench<T> flexibility = times(y, w_) + q_ * times(U, U_);
+    const Wrench<T> flexibility = times(strained_by(segment_, y), strained_) + q_ * times(U, U_);
     parameters = {-(per_length * dot(y + by_rate, rate_)), -flexibility.n, -flexibility.m, -y.n, -y.m};
   }
 
@@ -129,6 +132,12 @@ class Se3Slopes {
     detail::solve_lower(x_.l, c);
     detail::solve_upper(x_.l, c);
     return {{c[0], c[1], c[2]}, {c[3], c[4], c[5]}};
+  }
+
+  /// A x: what a misfit of the strain is in xi's rate where the reference curvature varies.
+  Wrench<T> spread(const Wrench<T>& x) const {
+    if (!segment_.varies) return x;
+    return {x.n - q_ * cross(segment_.slope_phi, x.n), x.m - q_ * cross(segment_.slope_phi, x.m)};
   }
 
   Wrench<T> change_of_rate(const Se3Step<T>& step) const {
@@ -148,8 +157,9 @@ class Se3Slopes {
   }
 
   T h_, q_;
+  Se3Segment<T> segment_;
   detail::Se3Strain<T> x_;
-  Wrench<T> flexibility_, w_, rate_, e_, U_, u_;
+  Wrench<T> flexibility_, w_, strained_, rate_, e_, U_, u_;
 };
 
 }  // namespace tendril

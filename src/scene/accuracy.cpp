@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "base/error.h"
+#include "statics/network_solver.h"
 #include "statics/solve.h"
-#include "statics/solver.h"
 
 namespace tendril {
 namespace {
@@ -150,8 +150,8 @@ std::vector<Equilibrium> solve_halved(const std::vector<RodProblem>& problems, c
                                       const RunContext& context) {
   std::vector<Equilibrium> all;
   for (const RodProblem& problem : problems) {
-    RodSolver solver(problem, options, problem.rod.segments, 2);
-    all.push_back(solver.solve(context, nullptr));
+    NetworkSolver solver({{problem}, {}}, options, 2);
+    all.push_back(std::move(solver.solve(context).rods.front()));
     if (!all.back().ok()) break;
   }
   return all;

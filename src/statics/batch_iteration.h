@@ -211,6 +211,8 @@ void BatchIteration<T>::assemble(int index) {
   if (segment.rates >= 0) {
     element.rate_v = vector(parameters_ + segment.rates);
     element.rate_phi = vector(parameters_ + segment.rates + 3);
+    element.slope_phi = vector(parameters_ + segment.rates + 6);
+    element.varies = true;
   } else {
     element.rate_v = {T{}, T{}, filled<T>(1)};
     element.rate_phi = {T{}, T{}, T{}};

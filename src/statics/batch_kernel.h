@@ -26,7 +26,7 @@ struct BatchNode {
 /// Sizes of the blocks in the parameters, in doubles a lane.
 struct BatchBlocks {
   static constexpr int stiffness = 10;  ///< h; 1/(GA1, GA2, EA); 1/(EI1, EI2, GJ); weight per length (world axes)
-  static constexpr int rates = 6;       ///< reference rates v, phi
+  static constexpr int rates = 9;       ///< reference rates v, phi; slope of phi
   static constexpr int frame = 7;       ///< position; quaternion w, x, y, z
   static constexpr int force = 3;
   static constexpr int wrench = 6;

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "rod/rotation_log.h"
+#include "statics/se3_packs.h"
 
 namespace tendril {
 namespace {
@@ -357,6 +358,8 @@ bool BatchLayout::read_intervals(const RodProblem& problem, const RodPlan& plan,
     for (int j = 0; interval.rates >= 0 && j < interval.count; ++j) {
       const Frame after = rod.shape(from + way * (j + 1) / interval.count);
       const Frame relative = before.inverse() * after;
+      const Quat middle = rod.shape(from + way * (j + 0.5) / interval.count).rotation;
+      const Vec3 slope = reference_slope({0, h, section, relative, before.rotation.conjugate() * middle});
       before = after;
       JacobianCoefficients<double> k;
       const Quat& q = relative.rotation;
@@ -366,6 +369,7 @@ bool BatchLayout::read_intervals(const RodProblem& problem, const RodPlan& plan,
       double* rates = to + interval.rates + j * BatchBlocks::rates;
       put(rates, Vec3(v.x, v.y, v.z) / h);
       put(rates + 3, Vec3(phi.x, phi.y, phi.z) / h);
+      put(rates + 6, slope);
     }
   }
   return true;

@@ -74,7 +74,7 @@ Se3Segment<double> RodDerivatives::segment(int i) const {
   const Se3Segment<Pack>& from = packs_[i / 4];
   const int l = i % 4;
   return {lane(from.h, l), lane(from.q, l), in_lanes(get(from.flexibility_v, l)), in_lanes(get(from.flexibility_phi, l)),
-          in_lanes(get(from.rate_v, l)), in_lanes(get(from.rate_phi, l))};
+          in_lanes(get(from.rate_v, l)), in_lanes(get(from.rate_phi, l)), in_lanes(get(from.slope_phi, l)), from.varies};
 }
 
 Wrench<double> RodDerivatives::wrench(int i) const { return get(slopes_[i / 4].wrench(), i % 4); }

@@ -9,6 +9,14 @@ ReferenceRates reference_rates(const Frame& reference, double length) {
   return {from_lanes(v) / length, from_lanes(phi) / length};
 }
 
+Vec3 reference_slope(const MeshSegment& segment) {
+  if (segment.to_middle.vec().isZero(0) && segment.reference.rotation.vec().isZero(0)) return Vec3::Zero();
+  const Vec3 first = log_rotation(segment.to_middle);
+  const Vec3 second = log_rotation(segment.to_middle.conjugate() * segment.reference.rotation);
+  const Vec3 change = second - first;
+  return change.norm() > 1e-11 ? Vec3(4 / (segment.length * segment.length) * change) : Vec3(Vec3::Zero());
+}
+
 std::vector<Se3Segment<Pack>> se3_segments(const RodMesh& mesh, bool fourth_order) {
   const int segments = mesh.vertices() - 1;
   std::vector<Se3Segment<Pack>> packs((segments + 3) / 4);
@@ -25,6 +33,9 @@ std::vector<Se3Segment<Pack>> se3_segments(const RodMesh& mesh, bool fourth_orde
     put(to.flexibility_phi, Vec3(1 / section.EI1, 1 / section.EI2, 1 / section.GJ), l);
     put(to.rate_v, rates.v, l);
     put(to.rate_phi, rates.phi, l);
+    const Vec3 slope = reference_slope(from);
+    put(to.slope_phi, slope, l);
+    to.varies = to.varies || !slope.isZero(0);
   }
   return packs;
 }

@@ -30,6 +30,9 @@ struct ReferenceRates {
 };
 ReferenceRates reference_rates(const Frame& reference, double length);
 
+/// d(reference curvature)/ds over a segment (1/m^2), from the turns of its halves; zero where that is rounding.
+Vec3 reference_slope(const MeshSegment& segment);
+
 /// The ends' frames of the four segments of a pack.
 inline Se3Ends<Pack> se3_ends(StateView state, int segments, int pack) {
   Se3Ends<Pack> e;

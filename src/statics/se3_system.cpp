@@ -213,13 +213,14 @@ void Se3System::describe(StateView state, Equilibrium& out) {
     const detail::Se3Strain<Pack> x(s, e);
     const SegmentGradient<Pack> g = se3_gradient(s, e);
     Wrench<Pack> u;
-    detail::force_on_xi(s, s.q, x, g.wrench, u);
+    const Wrench<Pack> strained = strained_by(s, g.wrench);
+    detail::force_on_xi(s, s.q, x, strained, u);
     for (int l = 0; l < lanes_in(p); ++l) {
       const int i = 4 * p + l;
       const Section& section = mesh_.segments[i].section;
       const double h = mesh_.segments[i].length;
       const double q = lane(s.q, l);
-      const Vec3 n = get(g.wrench.n, l), m = get(g.wrench.m, l), un = get(u.n, l), um = get(u.m, l);
+      const Vec3 n = get(strained.n, l), m = get(strained.m, l), un = get(u.n, l), um = get(u.m, l);
       const Vec3 kv(section.GA1, section.GA2, section.EA), kp(section.EI1, section.EI2, section.GJ);
       out.forces[i] = get(g.force, l);
       out.moments[i] = m;

@@ -35,6 +35,8 @@ Case random_case(std::mt19937& random, double angle, double h, bool preformed, b
   for (int i = 0; i < 3; ++i) c.segment.flexibility_phi[i] = 1 / stiffness(random);
   c.segment.rate_v = v3(Vec3(Vec3::UnitZ() + (preformed ? 0.1 : 0.0) * vector()));
   c.segment.rate_phi = v3(Vec3((preformed ? 0.5 : 0.0) * vector()));
+  c.segment.slope_phi = v3(vector() / h);
+  c.segment.varies = preformed;
   c.a = {vector(), exp_rotation(vector())};
   c.b.rotation = c.a.rotation * exp_rotation(vector().normalized() * angle);
   c.b.at = c.a.at + c.a.rotation * (h * (Vec3::UnitZ() + 0.2 * vector()));
@@ -55,6 +57,7 @@ Se3Parameters<double> parameters(const Vec13& x) {
 Case changed(Case c, const Vec13& x) {
   const Se3Parameters<double> p = parameters(x);
   Se3Segment<double>& s = c.segment;
+  s.slope_phi = (s.h / (s.h + p.h)) * (s.h / (s.h + p.h)) * s.slope_phi;  // the turn of the slope stays
   s.h += p.h;
   s.q = c.fourth_order ? s.h * s.h / 12 : 0;
   s.flexibility_v = s.flexibility_v + p.flexibility_v;
@@ -190,7 +193,14 @@ TEST_CASE("se3 parameters: four lanes give what one lane gives", "[rod]") {
   for (int i = 0; i < 4; ++i) {
     const Case c = random_case(random, angles[i], 0.4, true, true);
     const Se3Step<double> one = step_of(random_step(random));
-    put(segment, c.segment, i);
+    lane(segment.h, i) = c.segment.h;
+    lane(segment.q, i) = c.segment.q;
+    put(segment.flexibility_v, c.segment.flexibility_v, i);
+    put(segment.flexibility_phi, c.segment.flexibility_phi, i);
+    put(segment.rate_v, c.segment.rate_v, i);
+    put(segment.rate_phi, c.segment.rate_phi, i);
+    put(segment.slope_phi, c.segment.slope_phi, i);
+    segment.varies = c.segment.varies;
     put(ends, c.ends(), i);
     put(step, one, i);
     single[i] = flat(Se3Slopes<double>(c.segment, c.ends()).of_work(one));
