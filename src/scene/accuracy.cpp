@@ -15,25 +15,38 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-std::vector<RodProblem> problems_of(const Scene& scene, const Surroundings* surroundings, int segments) {
-  std::vector<RodProblem> problems;
-  for (const auto& rod : scene.rods()) {
-    problems.push_back(scene.problem_of(*rod));
-    problems.back().rod.segments = segments;
-    problems.back().surroundings = surroundings;
-  }
-  return problems;
+std::vector<Scene::System> systems_of(const Scene& scene, const Surroundings* surroundings, int segments) {
+  std::vector<Scene::System> systems = scene.systems();
+  for (Scene::System& system : systems)
+    for (RodProblem& problem : system.problem.rods) {
+      problem.rod.segments = segments;
+      problem.surroundings = surroundings;
+    }
+  return systems;
 }
 
-/// One equilibrium a rod; stops early when one is not solved.
-std::vector<Equilibrium> solve_all(const std::vector<RodProblem>& problems, const SolveOptions& options,
-                                   const RunContext& context) {
+/// One equilibrium a rod, in the scene's order. `refinement` 2: with every segment cut into two, so that every second
+/// vertex is one of the coarser mesh.
+std::vector<Equilibrium> solve_all(const std::vector<Scene::System>& systems, const SolveOptions& options,
+                                   const RunContext& context, int refinement = 1) {
   std::vector<Equilibrium> all;
-  for (const RodProblem& problem : problems) {
-    all.push_back(solve(problem, options, context));
-    if (!all.back().ok()) break;
+  for (const Scene::System& system : systems) {
+    SystemEquilibrium solved = refinement == 1 ? solve(system.problem, options, context)
+                                               : NetworkSolver(system.problem, options, refinement).solve(context);
+    for (std::size_t k = 0; k < system.rods.size(); ++k) {
+      const std::size_t rod = static_cast<std::size_t>(system.rods[k]);
+      if (all.size() <= rod) all.resize(rod + 1);
+      all[rod] = std::move(solved.rods[k]);
+    }
   }
   return all;
+}
+
+/// The counts of rods that hang together are those of all of them.
+int iterations_of(const std::vector<Scene::System>& systems, const std::vector<Equilibrium>& all) {
+  int sum = 0;
+  for (const Scene::System& system : systems) sum += all.empty() ? 0 : all[system.rods.front()].iterations;
+  return sum;
 }
 
 const Equilibrium* first_failure(const std::vector<Equilibrium>& all) {
@@ -103,7 +116,7 @@ Reference make_reference(const Scene& scene, const Surroundings* surroundings, i
   best.tolerance = std::min(options.solve.tolerance, 1e-11);
   std::vector<Equilibrium> first;
   for (auto [target, segments] : {std::pair{&first, n}, std::pair{&reference.coarse, 2 * n}, std::pair{&reference.fine, 4 * n}}) {
-    *target = solve_all(problems_of(scene, surroundings, segments), best, context);
+    *target = solve_all(systems_of(scene, surroundings, segments), best, context);
     if (const Equilibrium* failed = first_failure(*target)) {
       result.status = failed->status;
       result.message = "the reference with " + std::to_string(segments) + " segments: " + failed->message;
@@ -124,6 +137,7 @@ Reference make_reference(const Scene& scene, const Surroundings* surroundings, i
 /// What one row measures: a solution a rod, or two with half the segments in the first.
 struct Solutions {
   std::vector<Equilibrium> half, whole;
+  int iterations = 0;
 
   const Equilibrium* failure() const {
     const Equilibrium* failed = first_failure(half);
@@ -145,38 +159,23 @@ void add_errors(const Solutions& solved, double order, const Reference& referenc
   }
 }
 
-/// One equilibrium a rod with every segment cut into two, so that every second vertex is one of the coarser mesh.
-std::vector<Equilibrium> solve_halved(const std::vector<RodProblem>& problems, const SolveOptions& options,
-                                      const RunContext& context) {
-  std::vector<Equilibrium> all;
-  for (const RodProblem& problem : problems) {
-    NetworkSolver solver({{problem}, {}}, options, 2);
-    all.push_back(std::move(solver.solve(context).rods.front()));
-    if (!all.back().ok()) break;
-  }
-  return all;
-}
-
 Solutions solve_row(const Scene& scene, const Surroundings* surroundings, int segments, const AccuracyOptions& options,
                     const RunContext& context, std::vector<double>& seconds) {
   SolveOptions timed = options.solve;
   timed.error = false;
-  const std::vector<RodProblem> problems =
-      problems_of(scene, surroundings, options.extrapolate ? segments / 2 : segments);
+  const std::vector<Scene::System> systems =
+      systems_of(scene, surroundings, options.extrapolate ? segments / 2 : segments);
   Solutions solved;
   double spent = 0;
   while (seconds.size() < 3 || (spent < options.seconds_each && seconds.size() < 2000)) {
     const Clock::time_point start = Clock::now();
-    if (options.extrapolate) {
-      solved.half = solve_all(problems, timed, context);
-      solved.whole = solve_halved(problems, timed, context);
-    } else {
-      solved.whole = solve_all(problems, timed, context);
-    }
+    if (options.extrapolate) solved.half = solve_all(systems, timed, context);
+    solved.whole = solve_all(systems, timed, context, options.extrapolate ? 2 : 1);
     seconds.push_back(std::chrono::duration<double>(Clock::now() - start).count());
     spent += seconds.back();
     if (solved.failure()) break;
   }
+  solved.iterations = iterations_of(systems, solved.half) + iterations_of(systems, solved.whole);
   return solved;
 }
 
@@ -190,8 +189,7 @@ AccuracyRow measure(const Scene& scene, const Surroundings* surroundings, int se
   std::sort(seconds.begin(), seconds.end());
   row.fastest = seconds.front();
   row.seconds = seconds[seconds.size() / 2];
-  for (const auto* all : {&solved.half, &solved.whole})
-    for (const Equilibrium& eq : *all) row.iterations += eq.iterations;
+  row.iterations = solved.iterations;
   const Equilibrium* failed = solved.failure();
   row.status = failed ? failed->status : Status::solved;
   if (failed) return row;
@@ -202,9 +200,9 @@ AccuracyRow measure(const Scene& scene, const Surroundings* surroundings, int se
   return row;
 }
 
-double estimate_of(const std::vector<RodProblem>& problems, const SolveOptions& options, const RunContext& context) {
+double estimate_of(const std::vector<Scene::System>& systems, const SolveOptions& options, const RunContext& context) {
   double largest = 0;
-  for (const Equilibrium& eq : solve_all(problems, options, context)) {
+  for (const Equilibrium& eq : solve_all(systems, options, context)) {
     if (!eq.ok() || !eq.error || !eq.error->valid) return unknown;
     largest = std::max(largest, eq.error->value);
   }
@@ -249,7 +247,7 @@ Accuracy study_accuracy(const Scene& scene, const AccuracyOptions& options, cons
   for (const int n : options.segments) {
     AccuracyRow row = measure(scene, surroundings.get(), n, options, context, reference);
     if (options.solve.error && row.status == Status::solved)
-      row.estimate = estimate_of(problems_of(scene, surroundings.get(), n), options.solve, context);
+      row.estimate = estimate_of(systems_of(scene, surroundings.get(), n), options.solve, context);
     if (!result.rows.empty() && result.rows.back().error > 0 && row.error > 0 && result.rows.back().segments != n)
       row.order = std::log(result.rows.back().error / row.error) / std::log(double(n) / result.rows.back().segments);
     result.rows.push_back(row);

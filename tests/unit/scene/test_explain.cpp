@@ -29,7 +29,7 @@ TEST_CASE("each term appears when the scene has it", "[scene][explain]") {
   CHECK(explain(scene).uses("gravity"));
   hose.load({0.5, {0, 0, -1}, {0, 0, 0}});
   CHECK(explain(scene).uses("loads"));
-  hose.hold({1.2, hose.hold_at(1.2)->frame, true, true, false, 2});
+  hose.hold({1.2, hose.hold_at(1.2)->frame, true, true, 2});
   CHECK(explain(scene).uses("extra turns"));
   scene.add(sheet("sheet", {0, 0, 0.4}));
   CHECK(explain(scene).uses("contact"));

@@ -51,7 +51,7 @@ TEST_CASE("a second hold at one place may not contradict the first", "[scene]") 
   CHECK_THROWS_WITH(rod.hold({1, turned}), Contains("contradictory holds") && Contains("5.729"));
 
   SECTION("the same frame changes turns") {
-    rod.hold({1, there, true, true, false, 2});
+    rod.hold({1, there, true, true, 2});
     CHECK(rod.holds().size() == 2);
     CHECK(rod.hold_at(1)->turns == 2);
   }
@@ -78,7 +78,7 @@ TEST_CASE("holds and loads reject what is no number or holds nothing", "[scene]"
   bad.at.y() = std::numeric_limits<double>::infinity();
   CHECK_THROWS_WITH(rod.hold({1, bad}), Contains("not finite"));
   CHECK_THROWS_WITH(rod.hold({1, there, false, false}), Contains("neither position nor orientation"));
-  CHECK_THROWS_WITH(rod.hold({1, there, true, true, false, std::nan("")}), Contains("'turns'"));
+  CHECK_THROWS_WITH(rod.hold({1, there, true, true, std::nan("")}), Contains("'turns'"));
   CHECK_THROWS_WITH(rod.load({0.5, {std::nan(""), 0, 0}, {0, 0, 0}}), Contains("'force'"));
   CHECK_THROWS_WITH(rod.load({0.5, {0, 0, 0}, {0, 0, std::nan("")}}), Contains("'moment'"));
   rod.load({0.5, {0, 0, -1}, {0, 0, 0}});
