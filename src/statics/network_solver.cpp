@@ -21,19 +21,50 @@ double softened_stiffness(const RodNetwork& network) {
   return std::max(1e4 * bending, 50 * loads);
 }
 
-/// Segments so long that the tension outweighs the bending stiffness over them: the fourth-order element's series in
-/// h^2 n/(12 EI) is then no longer one.
-bool too_long_for_tension(const RodNetwork& network, const SystemEquilibrium& found) {
+// Where a force outweighs the bending stiffness over a segment, h^2 n/(12 EI), the fourth-order element's series is no
+// longer one. From the second value on there is no hope that it converges, even from the staggered element's solution.
+constexpr double too_long = 0.5, far_too_long = 2;
+// Expected from the weight and the stretch: from here on the staggered element comes first.
+constexpr double expected_too_long = 0.7;
+constexpr int most_refining = 8;   // iterations from the staggered element's solution
+
+double force_over_bending(const MeshSegment& segment, double force) {
+  return segment.length * segment.length * force / (12 * std::min(segment.section.EI1, segment.section.EI2));
+}
+
+double largest_force_over_bending(const RodNetwork& network, const SystemEquilibrium& found) {
   double largest = 0;
   for (int k = 0; k < network.rods(); ++k) {
     const std::vector<Vec3>& forces = found.rods[k].forces;
-    for (std::size_t i = 0; i < forces.size(); ++i) {
-      const MeshSegment& segment = network.rod(k).mesh().segments[i];
-      const double softest = std::min(segment.section.EI1, segment.section.EI2);
-      largest = std::max(largest, segment.length * segment.length * forces[i].norm() / (12 * softest));
-    }
+    for (std::size_t i = 0; i < forces.size(); ++i)
+      largest = std::max(largest, force_over_bending(network.rod(k).mesh().segments[i], forces[i].norm()));
   }
-  return largest > 0.5;
+  return largest;
+}
+
+/// How far the holds pull the rod beyond its length, the largest between neighbours in position: a strain.
+double stretch_between_holds(const RodProblem& problem) {
+  double largest = 0;
+  for (const Hold& a : problem.holds)
+    for (const Hold& b : problem.holds) {
+      const double apart = b.at - a.at;
+      if (!(apart > 0) || !a.position || !b.position || a.slide || b.slide) continue;
+      largest = std::max(largest, (b.frame.at - a.frame.at).norm() / apart - 1);
+    }
+  return largest;
+}
+
+/// The same before anything is solved: half the rod's weight, or what its holds stretch it by, on its softest long segment.
+double expected_force_over_bending(const RodNetwork& network) {
+  double largest = 0;
+  for (int k = 0; k < network.rods(); ++k) {
+    const RodProblem& problem = network.rod(k).problem();
+    const double weight = 0.5 * problem.rod.mass() * problem.gravity.norm(), stretch = stretch_between_holds(problem);
+    if (weight == 0 && stretch == 0) continue;
+    for (const MeshSegment& segment : network.rod(k).mesh().segments)
+      largest = std::max(largest, force_over_bending(segment, std::max(weight, stretch * segment.section.EA)));
+  }
+  return largest;
 }
 
 std::vector<int> segments_of(const SystemProblem& problem) {
@@ -124,9 +155,19 @@ NewtonOutcome NetworkSolver::iterate(RodState& state, bool warm, const RunContex
 NewtonOutcome NetworkSolver::with_fallbacks(RodState& state, bool warm, const RunContext& context, int& fallbacks) {
   const RodState start = state;
   substitute_.reset();
-  NewtonOutcome outcome = iterate(state, warm, context);
+  NewtonOutcome outcome;
+  int spent = 0;
+  const bool staggered_first = options_.element == Element::se3 && !warm && options_.stable_only && !network_->has_moments() &&
+                               expected_force_over_bending(*network_) > expected_too_long;
+  if (staggered_first) {
+    outcome = by_staggered(state, options_.max_iterations, context);
+    spent = outcome.iterations;
+    if (outcome.status != Status::stalled) return outcome;
+    state = start;
+  }
+  outcome = iterate(state, warm, context);
+  outcome.iterations = spent += outcome.iterations;
   if (outcome.status != Status::stalled) return outcome;
-  int spent = outcome.iterations;
   auto attempt = [&](bool descend, int most, bool from_start) {
     if (from_start) state = start;
     NewtonOptions options;
@@ -146,7 +187,7 @@ NewtonOutcome NetworkSolver::with_fallbacks(RodState& state, bool warm, const Ru
     return outcome;
   }
   // B: by way of the staggered element.
-  if (options_.element == Element::se3) {
+  if (options_.element == Element::se3 && !staggered_first) {
     ++fallbacks;
     state = start;
     outcome = by_staggered(state, options_.max_iterations - spent, context);
@@ -187,6 +228,11 @@ NewtonOutcome NetworkSolver::by_staggered(RodState& state, int most, const RunCo
   if (outcome.status != Status::solved) return outcome;
   SystemEquilibrium found;
   other.describe(there, found);
+  const double force = largest_force_over_bending(*network_, found);
+  if (force > far_too_long) {
+    substitute_ = std::make_unique<SystemEquilibrium>(std::move(found));
+    return outcome;
+  }
   const NetworkGuess reached = frames_of(*other.network_, there);
   RodState closer = network_->state_from(reached.rods, reached.branches);
   for (int k = 0; k < network_->rods(); ++k)
@@ -194,11 +240,11 @@ NewtonOutcome NetworkSolver::by_staggered(RodState& state, int most, const RunCo
   NewtonOptions from_there;
   from_there.tolerance = options_.tolerance;
   from_there.continued = true;
-  from_there.max_iterations = std::min(40, most - outcome.iterations);
+  from_there.max_iterations = std::min(most_refining, most - outcome.iterations);
   NewtonOutcome refined = newton_.run(closer, from_there, context);
   refined.iterations += outcome.iterations;
   outcome.iterations = refined.iterations;
-  if (refined.status == Status::solved || !too_long_for_tension(*network_, found)) {
+  if (refined.status == Status::solved || force <= too_long) {
     state = closer;
     return refined;
   }
