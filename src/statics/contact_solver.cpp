@@ -58,6 +58,7 @@ NewtonOutcome ContactSolver::stage(RodState& state, Start start, double toleranc
   options.stable_only = options_.stable_only;
   options.warm = start == Start::warm;
   options.descend = descend;
+  options.convex = start == Start::cold && !descend;
   const NewtonOutcome out = newton_.run(state, options, context);
   used_ += out.iterations;
   terms_.set_exact(false);

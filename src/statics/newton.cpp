@@ -17,6 +17,7 @@ constexpr double quadratic_regime = 1e-2;  // below this a step predicts the nex
 constexpr double settled_step = 1e-5;      // steps below this that shrink no more are rounding along a nearly neutral mode
 constexpr int settled_rounds = 5;
 constexpr double blocked_share = 0.3;      // of a step; the guards left less
+constexpr int most_left_out = 6;           // beyond this the wrench is not false: the rod is about to buckle
 
 }  // namespace
 
@@ -91,21 +92,33 @@ void Newton::leave_saddle(RodState& state) {
   network_.apply(state, step_, further_ ? further_->allowed(state, step_, share) : share);
 }
 
+void Newton::factor(const RodState& state, const NewtonOptions& options, NewtonOutcome& out) {
+  linear_.take_out_held(state);
+  if (options.convex && stress_ != Stress::zero && linear_.shift() == 0 && left_out_ < most_left_out) {
+    out.negative_pivots = linear_.factor_as_is(out.iterations);
+    if (out.negative_pivots == 0 && !linear_.broken()) return;
+    ++left_out_;
+    stress_ = Stress::zero;
+    assemble(state);
+    linear_.take_out_held(state);
+  }
+  out.negative_pivots = linear_.factor(options.stable_only, out.iterations);
+}
+
 NewtonOutcome Newton::run(RodState& state, const NewtonOptions& options, const RunContext& context) {
   NewtonOutcome out;
   stress_ = options.descend || options.warm ? Stress::actual : options.continued ? Stress::predicted : Stress::zero;
   linear_.begin();
   previous_size_ = INFINITY;
   smallest_size_ = settled_step;
-  mode_moves_ = blocked_ = not_shrinking_ = 0;
+  mode_moves_ = blocked_ = not_shrinking_ = left_out_ = 0;
   while (out.iterations < options.max_iterations) {
     if (const auto stop = context.stop()) {
       out.status = *stop;
       return out;
     }
     assemble(state);
-    linear_.take_out_held(state);
-    out.negative_pivots = linear_.factor(options.stable_only, out.iterations);
+    factor(state, options, out);
     if (linear_.broken()) return out;
     linear_.solve(state, step_);
     const double size = network_.size_of(step_);

@@ -41,6 +41,9 @@ struct NewtonOptions {
   bool stable_only = true;
   bool warm = false;       ///< start from the actual wrenches, not from none
   bool continued = false;  ///< start from the wrenches that the run before ended with
+  /// Far from the solution: a matrix that the predicted wrench makes indefinite is replaced by the one without any, which
+  /// is positive, before a shift is tried. Steps that guards cut short leave wrenches that balance nothing.
+  bool convex = false;
   bool descend = false;    ///< energy descent (Armijo) instead of mixed stress
 };
 
@@ -68,6 +71,7 @@ class Newton {
   double energy_at(const RodState& state);
   bool settled(double size, const NewtonOptions& options);
   void leave_saddle(RodState& state);
+  void factor(const RodState& state, const NewtonOptions& options, NewtonOutcome& out);
 
   RodNetwork& network_;
   FurtherTerms* further_;
@@ -82,6 +86,7 @@ class Newton {
   int blocked_ = 0;               ///< rounds in which the guards cut the step short
   int not_shrinking_ = 0;         ///< rounds at the level of rounding
   int mode_moves_ = 0;
+  int left_out_ = 0;              ///< times that the wrench was left out of an indefinite matrix
 };
 
 }  // namespace tendril

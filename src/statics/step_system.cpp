@@ -67,6 +67,11 @@ void StepSystem::clear_held(int node, const std::vector<int>& edges) {
   }
 }
 
+int StepSystem::factor_as_is(int& factorisations) {
+  ++factorisations;
+  return ldlt_.factor(block);
+}
+
 int StepSystem::factor(bool only_positive, int& factorisations) {
   int negative = 0;
   auto shift_by = [&](double change) {

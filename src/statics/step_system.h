@@ -23,6 +23,8 @@ class StepSystem {
   /// Factorises. `only_positive`: with a shift where needed. Returns the number of pivots that were not positive before
   /// any shift larger than a neutral direction's; adds to `factorisations`.
   int factor(bool only_positive, int& factorisations);
+  /// Factorises without any shift; returns the number of pivots that are not positive.
+  int factor_as_is(int& factorisations);
   bool broken() const { return ldlt_.broken(); }
 
   /// The step, joined sections included.
