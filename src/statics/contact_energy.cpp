@@ -25,6 +25,7 @@ PointContact contact_at(std::span<const DistanceTerm> terms, double reach, doubl
   for (const DistanceTerm& t : terms) {
     if (t.distance < sum.distance) {
       sum.distance = t.distance;
+      sum.normal = t.normal;
       sum.obstacle = t.obstacle;
     }
     const double delta = reach - t.distance;

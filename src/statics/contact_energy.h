@@ -35,6 +35,7 @@ struct PointContact {
   Mat3 material = Mat3::Zero();      ///< sum of phi'' n n^T, N/m
   Mat3 curvature = Mat3::Zero();     ///< sum of phi' Hess d, N/m; the true Hessian is material + curvature
   double distance = std::numeric_limits<double>::infinity();  ///< m, to the nearest of the terms
+  Vec3 normal = Vec3::Zero();        ///< gradient of that distance
   int obstacle = -1;                 ///< that of the nearest term
 };
 

@@ -53,6 +53,30 @@ ContactPoint contact_point_at(std::span<const double> s, std::span<const double>
   return p;
 }
 
+ContactPoint slope_of(const ContactPoint& point, std::span<const double> s, Element element) {
+  const double h = s[point.segment + 1] - s[point.segment], xi = (point.s - s[point.segment]) / h;
+  ContactPoint slope{point.segment, point.s, 0, point.radius, -1 / h, 1 / h, 0, 0};
+  if (element == Element::se3) {
+    slope.rb = 6 * xi * (1 - xi) / h;
+    slope.ra = -slope.rb;
+    slope.ta = (1 - xi) * (1 - 3 * xi);
+    slope.tb = xi * (3 * xi - 2);
+  }
+  return slope;
+}
+
+ContactPoint curvature_of(const ContactPoint& point, std::span<const double> s, Element element) {
+  const double h = s[point.segment + 1] - s[point.segment], xi = (point.s - s[point.segment]) / h;
+  ContactPoint curvature{point.segment, point.s, 0, point.radius, 0, 0, 0, 0};
+  if (element == Element::se3) {
+    curvature.ra = (12 * xi - 6) / (h * h);
+    curvature.rb = -curvature.ra;
+    curvature.ta = (6 * xi - 4) / h;
+    curvature.tb = (6 * xi - 2) / h;
+  }
+  return curvature;
+}
+
 void set_trapezoid_weights(std::span<ContactPoint> points) {
   const int n = static_cast<int>(points.size());
   for (int i = 0; i < n; ++i) {
@@ -141,6 +165,13 @@ void moved_positions(std::span<const ContactPoint> points, const VertexShape& sh
         return shape.rotations[v] * (exp_rotation(share * step[v].tail<3>()) * Vec3::UnitZ());
       },
       out);
+}
+
+void add_point_force(const ContactPoint& p, const VertexShape& shape, const Vec3& force, Vec6& at_a, Vec6& at_b) {
+  at_a.head<3>() += p.ra * force;
+  at_b.head<3>() += p.rb * force;
+  if (p.ta != 0) at_a.tail<3>() -= p.ta * (turned_cross_e3(shape.rotations[p.segment]).transpose() * force);
+  if (p.tb != 0) at_b.tail<3>() -= p.tb * (turned_cross_e3(shape.rotations[p.segment + 1]).transpose() * force);
 }
 
 void add_point_energy(const ContactPoint& p, const VertexShape& shape, const Vec3& gradient, const Mat3& hessian,

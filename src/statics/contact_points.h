@@ -41,6 +41,11 @@ std::vector<ContactPoint> contact_points(std::span<const double> s, std::span<co
 ContactPoint contact_point_at(std::span<const double> s, std::span<const double> radii, Element element, int segment,
                               double xi);
 
+/// The point's first and second derivative by arc length: position_of() of them gives dx/ds and d2x/ds2 (1/m), the
+/// weights being derivatives of the point's.
+ContactPoint slope_of(const ContactPoint& point, std::span<const double> s, Element element);
+ContactPoint curvature_of(const ContactPoint& point, std::span<const double> s, Element element);
+
 /// Sets every point's weight by the trapezoid rule over the arc lengths of its neighbours.
 void set_trapezoid_weights(std::span<ContactPoint> points);
 
@@ -57,6 +62,9 @@ void positions_of(std::span<const ContactPoint> points, const VertexShape& shape
 /// r + share dr, R exp(share theta).
 void moved_positions(std::span<const ContactPoint> points, const VertexShape& shape, std::span<const Vec6> step,
                      double share, std::vector<Vec3>& out);
+
+/// Adds J^T f to the unknowns of the point's two vertices: a force on the point (N) as they feel it.
+void add_point_force(const ContactPoint& point, const VertexShape& shape, const Vec3& force, Vec6& at_a, Vec6& at_b);
 
 /// Adds an energy E(x) of the point to the system. gradient: dE/dx (N); hessian: d2E/dx2 (N/m), which may be any
 /// symmetric model of it; geometric: the gradient (N) that multiplies the second derivative of x by the rotations.

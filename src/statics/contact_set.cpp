@@ -12,8 +12,8 @@ ContactSet::ContactSet(const ContactField& field, std::vector<ContactPoint> poin
       x_(points_.size(), Vec3::Zero()),
       known_(points_.size()),
       shift_(points_.size(), 0.0),
-      grouped_(points_.size(), 0),
       excluded_(points_.size(), 0),
+      covered_(points_.size(), 0),
       was_active_(points_.size(), 0),
       active_(points_.size(), -1),
       predicted_(points_.size(), Vec3::Zero()) {}
@@ -46,7 +46,7 @@ double ContactSet::evaluate(const std::vector<Vec3>& x) {
   for (int i = 0; i < n; ++i) {
     active_[i] = -1;
     x_[i] = x[i];
-    if (excluded_[i]) continue;
+    if (excluded_[i] || covered_[i]) continue;
     if (!all_finite(x[i])) return std::numeric_limits<double>::infinity();
     if (out_of_reach(i, x[i])) {
       was_active_[i] = 0;
@@ -105,29 +105,25 @@ void ContactSet::predict_standing() {
 
 void ContactSet::forget_prediction() { std::fill(predicted_.begin(), predicted_.end(), Vec3::Zero()); }
 
-void ContactSet::update_shifts() {
+void ContactSet::update_shifts(const std::vector<double>& beside) {
   for (int i = 0; i < size(); ++i) {
     if (excluded_[i]) continue;
     // Out of reach means distance >= radius + shift, for which the rule gives zero.
     const PointContact* c = at(i);
-    shift_[i] = c ? std::max(0.0, reach(i) - c->distance) : 0.0;
+    shift_[i] = c ? std::max(0.0, reach(i) - c->distance + beside[i]) : 0.0;
   }
-  share_shifts();
 }
 
-void ContactSet::set_grouped(const std::vector<char>& grouped) {
-  grouped_ = grouped;
-  share_shifts();
-}
-
-void ContactSet::share_shifts() {
-  for (int i = 0; i < size();) {
-    int end = i;
-    double largest = 0;
-    for (; end < size() && grouped_[end]; ++end) largest = std::max(largest, shift_[end]);
-    for (int k = i; k < end; ++k) shift_[k] = largest;
-    i = std::max(end, i + 1);
-  }
+ContactSet::Nearest ContactSet::nearest(int i, double range) {
+  if (const PointContact* c = at(i)) return {c->distance, c->normal};
+  Nearest nearest;
+  if (distance_bound(i, x_[i]) >= range) return nearest;
+  terms_.clear();
+  ++queries_;
+  field_->terms(x_[i], range, terms_);
+  for (const DistanceTerm& t : terms_)
+    if (t.distance < nearest.distance) nearest = {t.distance, t.normal};
+  return nearest;
 }
 
 double ContactSet::deepest() const {

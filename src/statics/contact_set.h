@@ -43,23 +43,30 @@ class ContactSet {
   void predict_standing();  ///< the forces of the last positions, as they are
   void forget_prediction();
 
+  /// Distance and its gradient at the nearest feature within `range` (m) of point i at the last positions.
+  struct Nearest {
+    double distance = std::numeric_limits<double>::infinity();
+    Vec3 normal = Vec3::Zero();
+  };
+  Nearest nearest(int i, double range);
+
   /// A number that the distance of point i from all surfaces cannot be below when it is at `x` (m).
   double distance_bound(int i, const Vec3& x) const { return known_[i].distance - (x - known_[i].at).norm(); }
 
   /// Augmented Lagrangian: shift <- max(0, shift + radius - distance) at the last positions. The force stays, the
-  /// penetration goes. Points of one group share the largest shift among them.
-  void update_shifts();
+  /// penetration goes. `beside` (m, one a point): how much deeper the rod overlaps beside each point that carries a
+  /// force than at it; the point then rests that much farther off.
+  void update_shifts(const std::vector<double>& beside);
   const std::vector<double>& shifts() const { return shift_; }
   void set_shifts(const std::vector<double>& shifts) { shift_ = shifts; }
-
-  /// Runs of neighbouring points whose mark is set form groups with one shift. An edge slides freely along a group, but
-  /// is caught between points that each keep a shift of their own.
-  void set_grouped(const std::vector<char>& grouped);
-  const std::vector<char>& grouped() const { return grouped_; }
 
   /// Points that take no part (held by a support): no energy, no penetration.
   void exclude(int i) { excluded_[i] = true; }
   bool excluded(int i) const { return excluded_[i]; }
+
+  /// Points whose contact something else stands for at present, one mark a point: like excluded ones until the next call.
+  void cover(const std::vector<char>& covered) { covered_ = covered; }
+  bool covered(int i) const { return covered_[i]; }
 
   /// The largest radius - distance over all points at the last positions (m); negative without penetration.
   double deepest() const;
@@ -74,7 +81,6 @@ class ContactSet {
   };
   double reach(int i) const { return points_[i].radius + shift_[i]; }
   bool out_of_reach(int i, const Vec3& x);
-  void share_shifts();
 
   const ContactField* field_;
   std::vector<ContactPoint> points_;
@@ -82,8 +88,8 @@ class ContactSet {
   std::vector<Vec3> x_;
   std::vector<Known> known_;
   std::vector<double> shift_;
-  std::vector<char> grouped_;
   std::vector<char> excluded_;
+  std::vector<char> covered_;
   std::vector<char> was_active_;
   std::vector<int> active_;             ///< index into contacts_, -1: out of reach
   std::vector<PointContact> contacts_;

@@ -13,20 +13,14 @@ namespace {
 
 constexpr double soft = 0.1, hard = 0.01;            // overlap under the reference force, in radii
 constexpr double soft_tolerance = 2e-2;
-constexpr double working_tolerance = 1e-7;           // between updates
+constexpr double loose_step = 0.02;                  // radii: what is left of a step between two updates
+constexpr double slow = 0.4, hardening = 4;          // an overlap that falls less than this makes the law so much stiffer
 constexpr int soft_iterations = 40, hard_iterations = 80, update_iterations = 60, descent_iterations = 300;
 
 std::string text(const char* format, double a, double b) {
   char buffer[200];
   std::snprintf(buffer, sizeof buffer, format, a, b);
   return buffer;
-}
-
-/// Overlap whose force per length is `force`: the inverse of the law's slope.
-double overlap_under(const ContactLaw& law, double force) {
-  const ContactLaw::Value knee = law.at(law.knee);
-  if (force <= knee.slope) return std::pow(force / (2.5 * law.stiffness), 2.0 / 3.0);
-  return law.knee + (force - knee.slope) / knee.curvature;
 }
 
 }  // namespace
@@ -65,6 +59,8 @@ NewtonOutcome ContactSolver::stage(RodState& state, Start start, double toleranc
   return out;
 }
 
+double ContactSolver::loose() const { return std::max(loose_step * radius_ / system_->length(), options_.tolerance); }
+
 bool ContactSolver::over(const ContactOutcome& out) const {
   return out.newton.status == Status::cancelled || out.newton.status == Status::timeout ||
          used_ >= options_.max_iterations;
@@ -73,45 +69,42 @@ bool ContactSolver::over(const ContactOutcome& out) const {
 /// The hard law by Newton's method, else by descent from where it got, else by descent from the start.
 NewtonOutcome ContactSolver::settle(RodState& state, const RodState& start, ContactOutcome& out,
                                     const RunContext& context) {
-  out.newton = stage(state, out.newton.status == Status::solved ? Start::warm : Start::cold, working_tolerance,
+  out.newton = stage(state, out.newton.status == Status::solved ? Start::warm : Start::cold, loose(),
                      hard_iterations, false, context);
   for (int attempt = 0; attempt < 2 && out.newton.status != Status::solved && !over(out); ++attempt) {
     ++out.fallbacks;
     if (attempt == 1) state = start;
-    out.newton = stage(state, Start::cold, working_tolerance, descent_iterations, true, context);
+    out.newton = stage(state, Start::cold, loose(), descent_iterations, true, context);
     if (out.newton.status == Status::solved || over(out)) break;
-    out.newton = stage(state, Start::warm, working_tolerance, hard_iterations, false, context);
+    out.newton = stage(state, Start::warm, loose(), hard_iterations, false, context);
   }
   return out.newton;
 }
 
+/// Each round lets Newton's method come only as near as the next update needs it; the last one goes all the way.
 void ContactSolver::remove_overlap(RodState& state, ContactOutcome& out, const RunContext& context) {
   const double enough = contact_.overlap * radius_;
-  double before = std::numeric_limits<double>::infinity();  // deepest overlap at the last update
+  double tolerance = loose(), before = std::numeric_limits<double>::infinity();
   while (out.newton.status == Status::solved && !over(out)) {
-    terms_.stand_at(state);
-    const double deepest = terms_.set().deepest();
-    if (deepest <= enough) {
-      // Wider from round to round: the rod may slide on before it rests.
-      const double window = 1.5 * (1 << out.refinements);
-      if (out.refinements >= contact_.most_refinements ||
-          terms_.refine(state, 0.9 * largest_solved_overlap, window) == 0)
-        break;
-      ++out.refinements;
+    const double deepest = terms_.deepest_at(state).penetration;
+    if (deepest <= enough && terms_.widest_gap(state) <= enough) {
+      if (tolerance <= options_.tolerance) break;
+      tolerance = options_.tolerance;
     } else {
-      if (out.updates >= contact_.most_updates + 2 * out.refinements) break;
-      // An edge that slides from point to point is what keeps single shifts from settling.
-      if (deepest > 0.5 * before) terms_.group_deep_points(state, contact_.overlap);
+      if (out.updates >= contact_.most_updates) break;
+      tolerance = loose();
+      terms_.update_shifts(state, contact_.overlap);
+      // Where the rod can roll about its contacts the law must be stiff enough for the updates to come to rest.
+      if (out.updates > 1 && deepest > slow * before) terms_.harden(hardening);
       before = deepest;
-      terms_.set().update_shifts();
       ++out.updates;
     }
     const RodState start = state;
-    out.newton = stage(state, Start::warm, working_tolerance, update_iterations, false, context);
+    out.newton = stage(state, Start::warm, tolerance, update_iterations, false, context);
     if (out.newton.status == Status::stalled && !over(out)) {
       ++out.fallbacks;
       state = start;
-      out.newton = stage(state, Start::warm, working_tolerance, descent_iterations, true, context);
+      out.newton = stage(state, Start::warm, tolerance, descent_iterations, true, context);
     }
   }
 }
@@ -122,6 +115,7 @@ ContactOutcome ContactSolver::run(RodState& state, const Equilibrium* from, cons
   ContactOutcome out;
   used_ = 0;
   const RodState start = state;
+  terms_.forget_forces();
   ContactSet& set = terms_.set();
   set.law = ContactLaw::for_overlap(reference_, radius_, hard);
   terms_.stand_at(state);
@@ -129,8 +123,8 @@ ContactOutcome ContactSolver::run(RodState& state, const Equilibrium* from, cons
   if (!crossings.empty()) out.message = "the start crosses an obstacle at " + place_of(crossings.front());
 
   if (from) {
-    take_forces_of(*from);
-    out.newton = stage(state, Start::warm, working_tolerance, hard_iterations, false, context);
+    terms_.take_forces(from->contacts);
+    out.newton = stage(state, Start::warm, loose(), hard_iterations, false, context);
   } else {
     set.law = ContactLaw::for_overlap(reference_, radius_, soft);
     terms_.set_early_end(true);
@@ -140,8 +134,6 @@ ContactOutcome ContactSolver::run(RodState& state, const Equilibrium* from, cons
   }
   if (!over(out) && !(from && out.newton.status == Status::solved)) settle(state, start, out, context);
   remove_overlap(state, out, context);
-  if (out.newton.status == Status::solved && options_.tolerance < working_tolerance)
-    out.newton = stage(state, Start::warm, options_.tolerance, update_iterations, false, context);
   out.newton.iterations = used_;
   judge(state, out);
   return out;
@@ -178,26 +170,6 @@ void ContactSolver::judge(const RodState& state, ContactOutcome& out) {
   }
 }
 
-/// A warm start: the forces of the solution before become shifts at the nearest points.
-void ContactSolver::take_forces_of(const Equilibrium& from) {
-  std::vector<double> places;
-  for (const ContactForce& contact : from.contacts) places.push_back(contact.s);
-  terms_.refine_around(places);
-  ContactSet& set = terms_.set();
-  std::vector<double> shifts(set.size(), 0.0);
-  std::vector<double> force(set.size(), 0.0);
-  int at = 0;
-  for (const ContactForce& contact : from.contacts) {
-    while (at + 1 < set.size() && std::abs(set.points()[at + 1].s - contact.s) <= std::abs(set.points()[at].s - contact.s))
-      ++at;
-    force[at] += contact.force.norm();
-  }
-  for (int i = 0; i < set.size(); ++i)
-    if (force[i] > 0 && set.points()[i].weight > 0) shifts[i] = overlap_under(set.law, force[i] / set.points()[i].weight);
-  set.set_shifts(shifts);
-  set.set_grouped(std::vector<char>(set.grouped()));
-}
-
 std::string ContactSolver::place_of(int point) const {
   const ContactSet& set = terms_.set();
   return text("s = %.4g m", set.points()[point].s, 0);
@@ -208,9 +180,7 @@ void ContactSolver::add_gradient(const RodState& state, std::vector<Vec6>& gradi
   for (Vec6& g : scratch_.gradient) g.setZero();
   for (Mat6& block : scratch_.diagonal) block.setZero();
   for (Mat6& block : scratch_.upper) block.setZero();
-  terms_.set_exact(true);
-  terms_.assemble(state, Stress::actual, scratch_);
-  terms_.set_exact(false);
+  terms_.add_to(state, true, scratch_);
   for (int i = 0; i < system_->nodes(); ++i) gradient[i] += scratch_.gradient[i];
 }
 
@@ -227,6 +197,13 @@ void ContactSolver::describe(const RodState& state, Equilibrium& out) {
     // What the shift adds is bookkeeping of the method, not stored energy.
     out.energy.contact += p.weight * set.law.at(p.radius - c->distance).energy;
   }
+  for (const SlidingContacts::Point& p : terms_.sliding().points()) {
+    const PointContact& c = p.contact;
+    if (!p.active || c.gradient.isZero(0)) continue;
+    out.contacts.push_back({p.at.s, p.x, -c.gradient, c.distance - p.at.radius, c.obstacle});
+    out.energy.contact += p.at.weight * set.law.at(p.at.radius - c.distance).energy;
+  }
+  std::sort(out.contacts.begin(), out.contacts.end(), [](const ContactForce& a, const ContactForce& b) { return a.s < b.s; });
   out.deepest_penetration = std::max(0.0, terms_.deepest_at(state).penetration);
 }
 

@@ -2,7 +2,7 @@
 //
 // Two stages of the contact law, soft then hard, each solved by Newton's method under the step guards; then the augmented
 // Lagrangian takes the remaining overlap away: shift_i <- max(0, shift_i + radius - distance), solved again, until the
-// deepest overlap is small. Where an edge or a bump pokes between two contact points a point is added there.
+// deepest overlap is small. Where an edge or a bump pokes between two contact points a sliding point follows it.
 // Not done: friction, self-contact, supports that stand inside an obstacle.
 #pragma once
 
@@ -13,19 +13,17 @@
 namespace tendril {
 
 struct ContactOptions {
-  double overlap = 1e-3;      ///< deepest overlap that is left, in radii
-  int most_updates = 6;       ///< of the augmented Lagrangian
-  int most_refinements = 5;   ///< rounds of added points
+  double overlap = 5e-4;      ///< deepest overlap that is aimed at, in radii, also between contact points
+  int most_updates = 20;      ///< of the augmented Lagrangian
 };
 
 /// An overlap beyond this, in radii, is never reported as solved.
-inline constexpr double largest_solved_overlap = 1e-2;
+inline constexpr double largest_solved_overlap = 1e-3;
 
 struct ContactOutcome {
   NewtonOutcome newton;       ///< of the last run; iterations over all
   int fallbacks = 0;
   int updates = 0;
-  int refinements = 0;
   double deepest = 0;         ///< m, looked at more finely than the contact points lie
   std::string message;        ///< empty, or what the user should know
 };
@@ -60,7 +58,7 @@ class ContactSolver {
   NewtonOutcome settle(RodState& state, const RodState& start, ContactOutcome& out, const RunContext& context);
   void remove_overlap(RodState& state, ContactOutcome& out, const RunContext& context);
   void judge(const RodState& state, ContactOutcome& out);
-  void take_forces_of(const Equilibrium& from);
+  double loose() const;
   bool over(const ContactOutcome& out) const;
   std::string place_of(int point) const;
 

@@ -1,6 +1,7 @@
 #include "statics/contact_terms.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace tendril {
@@ -10,22 +11,64 @@ namespace {
 constexpr int most_stiffenings = 4;     // springs against blockades within one Newton step
 constexpr double nearly_through = 0.35; // radii
 constexpr double cut = 0.7;             // a guarded share below this counts towards the early end
-constexpr int refinement = 4;           // parts of an interval that is refined
 constexpr int finer = 4;                // looks between two contact points when the overlap is judged
+constexpr double sharp_enough = 0.6;    // curvature of the distance along the rod times the radius: an edge has 1
+constexpr double covered_side = 0.75;   // radii to both sides of a sliding point that it stands for: at an edge a fixed
+                                        // point there is at least a quarter of the radius off
+constexpr double flat_enough = 0.3;     // below this a sliding point gives its force back to the fixed ones
 
 VertexShape shape_of(const RodState& state) { return {state.r, state.q}; }
 
+std::vector<double> radii_of(const RodMesh& mesh) {
+  std::vector<double> radii;
+  for (const MeshSegment& segment : mesh.segments) radii.push_back(segment.section.radius());
+  return radii;
+}
+
+/// The lowest place of the cubic with given values and slopes at the ends of an interval of length h.
+struct Dip {
+  double share = 0;                                            ///< 0 ... 1
+  double distance = std::numeric_limits<double>::infinity();   ///< m; infinite when the lowest place is an end
+  double curvature = 0;                                        ///< of the parabola from there to the ends, 1/m
+};
+
+Dip dip_between(double da, double slope_a, double db, double slope_b, double h) {
+  if (slope_a >= 0 || slope_b <= 0) return {};
+  const auto at = [&](double x) {
+    const double y = 1 - x;
+    return (1 + 2 * x) * y * y * da + x * x * (3 - 2 * x) * db + h * x * y * (y * slope_a - x * slope_b);
+  };
+  // The slope changes its sign once from minus to plus: halving finds where.
+  const auto slope = [&](double x) {
+    return 6 * x * (1 - x) * (db - da) / h + (1 - x) * (1 - 3 * x) * slope_a + x * (3 * x - 2) * slope_b;
+  };
+  double low = 0, high = 1;
+  for (int k = 0; k < 12; ++k) (slope(0.5 * (low + high)) < 0 ? low : high) = 0.5 * (low + high);
+  const double x = 0.5 * (low + high), d = at(x);
+  return {x, d, 2 * (da + db - 2 * d) / (h * h * (x * x + (1 - x) * (1 - x)))};
+}
+
+/// Overlap whose force per length is `force`: the inverse of the law's slope.
+double overlap_under(const ContactLaw& law, double force) {
+  const ContactLaw::Value knee = law.at(law.knee);
+  if (force <= knee.slope) return std::pow(force / (2.5 * law.stiffness), 2.0 / 3.0);
+  return law.knee + (force - knee.slope) / knee.curvature;
+}
+
 }  // namespace
 
-ContactTerms::ContactTerms(const RodSystem& system, Element element) : system_(&system), element_(element) {
-  const RodMesh& mesh = system.mesh();
-  for (const MeshSegment& segment : mesh.segments) radii_.push_back(segment.section.radius());
+ContactTerms::ContactTerms(const RodSystem& system, Element element)
+    : system_(&system),
+      element_(element),
+      radii_(radii_of(system.mesh())),
+      set_(*system.problem().surroundings, contact_points(system.mesh().s, radii_, element), 0.25 * system.length()),
+      sliding_(*system.problem().surroundings, system.mesh().s, radii_, element),
+      guard_(set_) {
   const RodProblem& problem = system.problem();
   for (std::size_t i = 0; i < problem.holds.size(); ++i)
-    if (problem.holds[i].position) held_s_.push_back(mesh.s[mesh.hold_vertex[i]]);
-  std::vector<ContactPoint> points = contact_points(mesh.s, radii_, element_);
-  const std::vector<double> shifts(points.size(), 0.0);
-  replace_set(std::move(points), shifts);
+    if (problem.holds[i].position) held_s_.push_back(system.mesh().s[system.mesh().hold_vertex[i]]);
+  for (int i = 0; i < set_.size(); ++i)
+    if (near_hold(set_.points()[i].s, set_.points()[i].radius)) set_.exclude(i);
 }
 
 bool ContactTerms::near_hold(double s, double radius) const {
@@ -33,29 +76,33 @@ bool ContactTerms::near_hold(double s, double radius) const {
                      [&](double held) { return std::abs(s - held) <= radius * (1 + 1e-9); });
 }
 
-void ContactTerms::replace_set(std::vector<ContactPoint> points, const std::vector<double>& shifts) {
-  const ContactLaw law = set_ ? set_->law : ContactLaw{};
-  set_ = std::make_unique<ContactSet>(*system_->problem().surroundings, std::move(points), 0.25 * system_->length());
-  set_->law = law;
-  set_->set_shifts(shifts);
-  for (int i = 0; i < set_->size(); ++i)
-    if (near_hold(set_->points()[i].s, set_->points()[i].radius)) set_->exclude(i);
-  guard_ = std::make_unique<ContactGuard>(*set_);
-  standing_ = false;
-}
-
 double ContactTerms::stand_at(const RodState& state) {
-  positions_of(set_->points(), shape_of(state), x_);
-  if (standing_ && x_ == set_->positions()) return energy_;
-  energy_ = set_->evaluate(x_);
+  positions_of(set_.points(), shape_of(state), x_);
+  if (standing_ && x_ == set_.positions()) return energy_;
+  energy_ = std::all_of(x_.begin(), x_.end(), [](const Vec3& x) { return all_finite(x); }) ? evaluate(shape_of(state)) : INFINITY;
   standing_ = true;
   return energy_;
 }
 
+/// Sliding points first: where one of them presses it stands for the fixed points beside it.
+double ContactTerms::evaluate(const VertexShape& shape) {
+  const double sliding = sliding_.evaluate(shape, set_.law);
+  covered_.assign(set_.size(), 0);
+  for (const SlidingContacts::Point& p : sliding_.points()) {
+    if (!p.active) continue;
+    const double side = covered_side * p.at.radius;
+    for (int i = point_before(p.at.s); i >= 0 && p.at.s - set_.points()[i].s < side; --i) covered_[i] = 1;
+    for (int i = point_before(p.at.s) + 1; i < set_.size() && set_.points()[i].s - p.at.s < side; ++i) covered_[i] = 1;
+  }
+  set_.cover(covered_);
+  return sliding + set_.evaluate(x_);
+}
+
 void ContactTerms::begin(const RodState& state) {
   stand_at(state);
-  guard_->start();
-  set_->predict_standing();
+  guard_.start();
+  set_.predict_standing();
+  sliding_.predict_standing();
   standing_ = false;  // the law may have changed
   cut_short_ = stiffened_ = 0;
   springs_.clear();
@@ -63,28 +110,39 @@ void ContactTerms::begin(const RodState& state) {
 }
 
 double ContactTerms::assemble(const RodState& state, Stress stress, BlockSystem& system) {
-  const double energy = stand_at(state);
-  guard_->accept();
-  if (stress == Stress::zero) set_->forget_prediction();
-  const VertexShape shape = shape_of(state);
-  set_->add_to(shape, exact_ ? ContactSet::Geometry::full : ContactSet::Geometry::predicted, system);
-  for (const Blockade& b : springs_) {
-    const MeshSegment& segment = system_->mesh().segments[set_->points()[b.point].segment];
-    add_blockade_springs(*set_, shape, {b}, 10 * segment.section.EA / segment.length, system);
+  track_edges(state);
+  stand_at(state);
+  guard_.accept();
+  if (stress == Stress::zero) {
+    set_.forget_prediction();
+    sliding_.forget_prediction();
   }
-  return energy;
+  add_to(state, exact_, system);
+  const VertexShape shape = shape_of(state);
+  for (const Blockade& b : springs_) {
+    const MeshSegment& segment = system_->mesh().segments[set_.points()[b.point].segment];
+    add_blockade_springs(set_, shape, {b}, 10 * segment.section.EA / segment.length, system);
+  }
+  return energy_;
+}
+
+void ContactTerms::add_to(const RodState& state, bool exact, BlockSystem& system) {
+  stand_at(state);
+  const VertexShape shape = shape_of(state);
+  set_.add_to(shape, exact ? ContactSet::Geometry::full : ContactSet::Geometry::predicted, system);
+  sliding_.add_to(shape, exact, system);
 }
 
 double ContactTerms::energy(const RodState& state) { return stand_at(state); }
 
 double ContactTerms::allowed(const RodState& state, const std::vector<Vec6>& step, double share) {
   stand_at(state);
-  GuardedStep guarded = guard_->admit(shape_of(state), step, share);
+  GuardedStep guarded = guard_.admit(shape_of(state), step, share);
   blockades_ = std::move(guarded.blockades);
   if (early_end_) {
     double nearest = 1;
-    for (int i = 0; i < set_->size(); ++i)
-      if (const PointContact* c = set_->at(i)) nearest = std::min(nearest, c->distance / set_->points()[i].radius);
+    for (int i = 0; i < set_.size(); ++i)
+      if (const PointContact* c = set_.at(i)) nearest = std::min(nearest, c->distance / set_.points()[i].radius);
     cut_short_ = nearest < nearly_through && guarded.share < cut * share ? cut_short_ + 1 : 0;
     if (cut_short_ >= 3) return 0;
   }
@@ -110,135 +168,199 @@ void ContactTerms::stepped(const RodState& before, const std::vector<Vec6>& step
   stiffened_ = 0;
   if (exact_) return;
   stand_at(before);
-  set_->predict(shape_of(before), step, share);
+  set_.predict(shape_of(before), step, share);
+  sliding_.predict(shape_of(before), step, share);
 }
 
-ContactTerms::Deepest ContactTerms::deepest_between(int i, const VertexShape& shape) const {
-  const ContactPoint &a = set_->points()[i], &b = set_->points()[i + 1];
-  const double reach = a.radius;
+/// The fixed points and the sliding ones between them, in the order of the rod.
+void ContactTerms::list_stations() {
+  stations_.clear();
+  auto sliding = sliding_.points().begin();
+  const auto end = sliding_.points().end();
+  for (int i = 0; i < set_.size(); ++i) {
+    const ContactPoint& p = set_.points()[i];
+    for (; sliding != end && sliding->at.s < p.s; ++sliding)
+      if (sliding->active && i > 0)
+        stations_.push_back({sliding->at.s, i - 1, true, sliding->at.radius - sliding->contact.distance, sliding->contact.obstacle});
+    const PointContact* c = set_.at(i);
+    stations_.push_back({p.s, i, set_.covered(i), c ? p.radius - c->distance : -INFINITY, c ? c->obstacle : -1});
+  }
+}
+
+/// The deepest overlap between two neighbouring stations, themselves left out unless they are covered.
+ContactTerms::Deepest ContactTerms::deepest_between(const Station& low, const Station& high, const VertexShape& shape) const {
+  const int i = low.point;
   Deepest deepest;
-  const Vec3 &xa = set_->positions()[i], &xb = set_->positions()[i + 1];
-  // No place between the two is nearer than this.
+  if (i + 1 >= set_.size() || set_.excluded(i) || set_.excluded(i + 1)) return deepest;
+  const double reach = set_.points()[i].radius;
+  const Vec3 &xa = set_.positions()[i], &xb = set_.positions()[i + 1];
+  // No place between the two points is nearer than this.
   const double apart = (xb - xa).norm();
-  if (set_->distance_bound(i, xa) > reach + apart || set_->distance_bound(i + 1, xb) > reach + apart) return deepest;
+  if (set_.distance_bound(i, xa) > reach + apart || set_.distance_bound(i + 1, xb) > reach + apart) return deepest;
   const RodMesh& mesh = system_->mesh();
-  const double start = mesh.s[a.segment], h = mesh.segments[a.segment].length;
+  const int segment = set_.points()[i].segment;
   const auto overlap_at = [&](double s) {
-    ContactPoint p = contact_point_at(mesh.s, radii_, element_, a.segment, (s - start) / h);
+    ContactPoint p = contact_point_at(mesh.s, radii_, element_, segment, (s - mesh.s[segment]) / mesh.segments[segment].length);
     p.radius = reach;
-    const ClosestPoint c = set_->field().closest(position_of(p, shape), 2 * reach + apart);
+    const ClosestPoint c = set_.field().closest(position_of(p, shape), 2 * reach + apart);
     if (reach - c.distance > deepest.penetration) deepest = {reach - c.distance, c.obstacle, p};
     return reach - c.distance;
   };
-  const double part = (b.s - a.s) / finer;
-  for (int k = 1; k < finer; ++k) overlap_at(a.s + k * part);
-  if (deepest.penetration <= 0) return deepest;
-  const double golden = 0.5 * (std::sqrt(5.0) - 1);
-  double low = std::max(a.s, deepest.point.s - part), high = std::min(b.s, deepest.point.s + part);
-  for (int k = 0; k < 5; ++k) {
-    const double left = high - golden * (high - low), right = low + golden * (high - low);
-    if (overlap_at(left) > overlap_at(right))
-      high = right;
-    else
-      low = left;
-  }
+  const double part = (high.s - low.s) / finer;
+  std::array<double, finer + 1> looks;
+  looks.front() = std::isfinite(low.overlap) ? low.overlap : overlap_at(low.s);
+  looks.back() = std::isfinite(high.overlap) ? high.overlap : overlap_at(high.s);
+  for (int k = 1; k < finer; ++k) looks[k] = overlap_at(low.s + k * part);
+  // An edge midway between two looks pokes (part / 2)^2 / (2 reach) deeper than they tell.
+  const int best = static_cast<int>(std::max_element(looks.begin(), looks.end()) - looks.begin());
+  if (looks[best] <= -part * part / (4 * reach) || best == 0 || best == finer) return deepest;
+  // The vertex of the parabola through the best look and its neighbours.
+  const double fall = 2 * looks[best] - looks[best - 1] - looks[best + 1];
+  const double aside = fall > 0 ? std::clamp(0.5 * (looks[best + 1] - looks[best - 1]) / fall, -1.0, 1.0) : 0.0;
+  if (std::abs(aside) > 1e-3) overlap_at(low.s + (best + aside) * part);
   return deepest;
 }
 
 ContactTerms::Deepest ContactTerms::deepest_at(const RodState& state) {
   stand_at(state);
   const VertexShape shape = shape_of(state);
+  list_stations();
   Deepest deepest;
-  for (int i = 0; i < set_->size(); ++i) {
-    const PointContact* c = set_->at(i);
-    if (c && set_->points()[i].radius - c->distance > deepest.penetration)
-      deepest = {set_->points()[i].radius - c->distance, c->obstacle, set_->points()[i]};
-  }
-  for (int i = 0; i + 1 < set_->size(); ++i) {
-    if (set_->excluded(i) || set_->excluded(i + 1)) continue;
-    const Deepest between = deepest_between(i, shape);
+  for (std::size_t k = 0; k < stations_.size(); ++k) {
+    const Station& here = stations_[k];
+    if (here.overlap > deepest.penetration) {
+      deepest.penetration = here.overlap;
+      deepest.obstacle = here.obstacle;
+      deepest.point = set_.points()[here.point];
+      deepest.point.s = here.s;
+    }
+    if (k + 1 == stations_.size()) break;
+    const Deepest between = deepest_between(here, stations_[k + 1], shape);
     if (between.penetration > deepest.penetration) deepest = between;
   }
   return deepest;
 }
 
-int ContactTerms::refine(const RodState& state, double most, double window) {
+/// Where an edge pokes between two points a sliding point follows it from now on, and takes over what they have of shift.
+void ContactTerms::track_edges(const RodState& state) {
   stand_at(state);
   const VertexShape shape = shape_of(state);
-  std::vector<int> intervals;
-  for (int i = 0; i + 1 < set_->size(); ++i)
-    if (!set_->excluded(i) && !set_->excluded(i + 1) &&
-        deepest_between(i, shape).penetration > most * set_->points()[i].radius)
-      intervals.push_back(i);
-  const int added = refine_intervals(intervals, window);
-  if (added > 0) stand_at(state);
-  return added;
-}
-
-int ContactTerms::refine_around(const std::vector<double>& arc_lengths) {
-  std::vector<int> intervals;
-  const std::vector<ContactPoint>& points = set_->points();
-  const double length = points.back().s;
-  for (double s : arc_lengths) {
-    const auto after = std::lower_bound(points.begin(), points.end(), s,
-                                        [](const ContactPoint& p, double at) { return p.s < at; });
-    if (after == points.begin() || after == points.end()) continue;
-    if (after->s - s < 1e-9 * length || s - (after - 1)->s < 1e-9 * length) continue;
-    intervals.push_back(static_cast<int>(after - points.begin()) - 1);
+  bool changed = sliding_.tidy();
+  std::vector<double> shifts = set_.shifts();
+  ContactSet::Nearest at_a, at_b;
+  Vec3 tangent_b = Vec3::Zero();
+  bool known = false;  // of point i, from the interval before
+  for (int i = 0; i + 1 < set_.size(); ++i) {
+    const ContactPoint &a = set_.points()[i], &b = set_.points()[i + 1];
+    const double h = b.s - a.s, range = a.radius + 0.5 * h;
+    if (set_.excluded(i) || set_.excluded(i + 1) || sliding_.any_between(a.s, b.s) ||
+        (set_.distance_bound(i, set_.positions()[i]) >= range && set_.distance_bound(i + 1, set_.positions()[i + 1]) >= range)) {
+      known = false;
+      continue;
+    }
+    at_a = known ? at_b : set_.nearest(i, 2 * range);
+    const Vec3 tangent_a = position_of(slope_of(a, system_->mesh().s, element_), shape);
+    at_b = set_.nearest(i + 1, 2 * range);
+    tangent_b = position_of(slope_of(b, system_->mesh().s, element_), shape);
+    known = true;
+    if (!std::isfinite(at_a.distance) || !std::isfinite(at_b.distance)) continue;
+    const Dip dip = dip_between(at_a.distance, at_a.normal.dot(tangent_a), at_b.distance, at_b.normal.dot(tangent_b), h);
+    if (dip.distance >= a.radius || a.radius * dip.curvature < sharp_enough) continue;
+    sliding_.add(a.s + dip.share * h, h, std::max(shifts[i], shifts[i + 1]));
+    shifts[i] = shifts[i + 1] = 0;
+    changed = true;
   }
-  return refine_intervals(intervals, 1.5);
+  if (!changed) return;
+  set_.set_shifts(shifts);
+  energy_ = evaluate(shape);
+  sliding_.predict_standing();
 }
 
-void ContactTerms::group_deep_points(const RodState& state, double most) {
+void ContactTerms::update_shifts(const RodState& state, double most) {
   stand_at(state);
-  const std::vector<ContactPoint>& points = set_->points();
-  std::vector<char> grouped = set_->grouped();
-  for (int i = 0; i < set_->size(); ++i) {
-    const PointContact* c = set_->at(i);
-    if (!c || points[i].radius - c->distance <= most * points[i].radius) continue;
-    for (int j = i; j >= 0 && points[i].s - points[j].s <= 1.5 * points[i].radius; --j) grouped[j] = 1;
-    for (int j = i; j < set_->size() && points[j].s - points[i].s <= 1.5 * points[i].radius; ++j) grouped[j] = 1;
+  const VertexShape shape = shape_of(state);
+  list_stations();
+  std::vector<double>& beside = beside_;
+  beside.assign(set_.size(), 0.0);
+  std::vector<Deepest> further_edges;
+  for (std::size_t k = 0; k + 1 < stations_.size(); ++k) {
+    const Station &low = stations_[k], &high = stations_[k + 1];
+    const Deepest between = deepest_between(low, high, shape);
+    if (between.penetration <= std::max(low.overlap, high.overlap)) continue;
+    if (low.covered || high.covered) {
+      if (between.penetration > most * between.point.radius) further_edges.push_back(between);
+      continue;
+    }
+    if (set_.at(low.point)) beside[low.point] = std::max(beside[low.point], between.penetration - low.overlap);
+    if (set_.at(high.point)) beside[high.point] = std::max(beside[high.point], between.penetration - high.overlap);
   }
-  set_->set_grouped(grouped);
+  sliding_.update_shifts();
+  const std::vector<SlidingContacts::Point> flat = sliding_.take_flat(flat_enough, shape);
+  set_.update_shifts(beside);
+  std::vector<double> shifts = set_.shifts();
+  for (const SlidingContacts::Point& p : flat) {
+    const int i = point_before(p.at.s);
+    for (int k : {i, i + 1}) shifts[k] += overlap_under(set_.law, 0.5 * p.contact.gradient.norm() / set_.points()[k].weight);
+  }
+  set_.set_shifts(shifts);
+  for (const Deepest& edge : further_edges) sliding_.add(edge.point.s, edge.point.radius, edge.penetration);
   standing_ = false;
 }
 
-int ContactTerms::refine_intervals(const std::vector<int>& intervals, double radii) {
-  if (intervals.empty()) return 0;
-  const std::vector<ContactPoint>& old = set_->points();
-  const int n = set_->size();
-  std::vector<int> parts(n - 1, 1);
-  for (int i : intervals) {
-    // The neighbourhood as well: the rod may slide on before it rests.
-    const double window = radii * old[i].radius, apart = old[i + 1].s - old[i].s;
-    for (int j = i; j >= 0 && old[i].s - old[j + 1].s < window; --j)
-      if (old[j + 1].s - old[j].s > 0.7 * apart) parts[j] = refinement;
-    for (int j = i; j + 1 < n && old[j].s - old[i + 1].s < window; ++j)
-      if (old[j + 1].s - old[j].s > 0.7 * apart) parts[j] = refinement;
-  }
-  std::vector<ContactPoint> points;
-  std::vector<double> shifts;
-  std::vector<char> grouped;
-  const RodMesh& mesh = system_->mesh();
-  for (int i = 0; i < n; ++i) {
-    points.push_back(old[i]);
-    shifts.push_back(set_->shifts()[i]);
-    grouped.push_back(set_->grouped()[i] || (i > 0 && parts[i - 1] > 1) || (i + 1 < n && parts[i] > 1));
-    if (i + 1 == n) break;
-    const double start = mesh.s[old[i].segment], h = mesh.segments[old[i].segment].length;
-    for (int k = 1; k < parts[i]; ++k) {
-      const double share = double(k) / parts[i];
-      const double s = old[i].s + share * (old[i + 1].s - old[i].s);
-      points.push_back(contact_point_at(mesh.s, radii_, element_, old[i].segment, (s - start) / h));
-      shifts.push_back((1 - share) * set_->shifts()[i] + share * set_->shifts()[i + 1]);
-      grouped.push_back(1);
+/// The last point before an arc length that has one after it.
+int ContactTerms::point_before(double s) const {
+  const std::vector<ContactPoint>& points = set_.points();
+  const auto after = std::upper_bound(points.begin(), points.end(), s, [](double at, const ContactPoint& p) { return at < p.s; });
+  return std::clamp(static_cast<int>(after - points.begin()) - 1, 0, set_.size() - 2);
+}
+
+double ContactTerms::widest_gap(const RodState& state) {
+  stand_at(state);
+  double widest = 0;
+  for (int i = 0; i < set_.size(); ++i)
+    if (const PointContact* c = set_.at(i)) widest = std::max(widest, c->distance - set_.points()[i].radius - beside_[i]);
+  for (const SlidingContacts::Point& p : sliding_.points())
+    if (p.active) widest = std::max(widest, p.contact.distance - p.at.radius);
+  return widest;
+}
+
+void ContactTerms::harden(double factor) {
+  const ContactLaw before = set_.law;
+  set_.law.stiffness *= factor;
+  const auto same_force = [&](double shift) { return overlap_under(set_.law, before.at(shift).slope); };
+  std::vector<double> shifts = set_.shifts();
+  for (int i = 0; i < set_.size(); ++i)
+    if (shifts[i] > beside_[i]) shifts[i] = beside_[i] + same_force(shifts[i] - beside_[i]);
+  set_.set_shifts(shifts);
+  sliding_.change_shifts(same_force);
+  standing_ = false;
+}
+
+void ContactTerms::forget_forces() {
+  set_.set_shifts(std::vector<double>(set_.size(), 0.0));
+  sliding_.clear();
+  beside_.assign(set_.size(), 0.0);
+  standing_ = false;
+}
+
+void ContactTerms::take_forces(const std::vector<ContactForce>& forces) {
+  forget_forces();
+  const std::vector<ContactPoint>& points = set_.points();
+  const double length = points.back().s;
+  std::vector<double> shifts(points.size(), 0.0);
+  for (const ContactForce& contact : forces) {
+    const auto after = std::lower_bound(points.begin(), points.end(), contact.s - 1e-9 * length,
+                                        [](const ContactPoint& p, double s) { return p.s < s; });
+    if (after == points.end()) continue;
+    const double force = contact.force.norm();
+    if (after == points.begin() || after->s <= contact.s + 1e-9 * length) {
+      shifts[after - points.begin()] = overlap_under(set_.law, force / after->weight);
+    } else {
+      const double apart = after->s - (after - 1)->s;
+      sliding_.add(contact.s, apart, overlap_under(set_.law, force / apart));
     }
   }
-  const int added = static_cast<int>(points.size()) - n;
-  set_trapezoid_weights(points);
-  replace_set(std::move(points), shifts);
-  set_->set_grouped(grouped);
-  return added;
+  set_.set_shifts(shifts);
 }
 
 }  // namespace tendril

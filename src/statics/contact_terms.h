@@ -1,9 +1,8 @@
 // Contact as a further term of Newton's method: energy, gradient and second derivative, and the step guards.
 #pragma once
 
-#include <memory>
-
 #include "statics/contact_guards.h"
+#include "statics/contact_sliding.h"
 #include "statics/newton.h"
 
 namespace tendril {
@@ -13,12 +12,17 @@ class ContactTerms final : public FurtherTerms {
   /// Points along the rod of `system` against its problem's surroundings, which must outlive this. Points within one
   /// radius of a held position take no part: a rod leaves its fitting there.
   ContactTerms(const RodSystem& system, Element element);
+  ContactTerms(const ContactTerms&) = delete;  // parts point at each other
+  ContactTerms& operator=(const ContactTerms&) = delete;
 
   double assemble(const RodState& state, Stress stress, BlockSystem& system) override;
   double energy(const RodState& state) override;
   double allowed(const RodState& state, const std::vector<Vec6>& step, double share) override;
   bool stiffen(const RodState& state, const std::vector<Vec6>& step, double share) override;
   void stepped(const RodState& before, const std::vector<Vec6>& step, double share) override;
+
+  /// Adds gradient and second derivative at a state as it is, without looking for further edges.
+  void add_to(const RodState& state, bool exact, BlockSystem& system);
 
   /// To be called before a Newton run at the state it starts from: notes crossings, forgets what the last run left.
   /// The forces of the set's law before a change are kept as prediction.
@@ -31,9 +35,10 @@ class ContactTerms final : public FurtherTerms {
   /// Exact curvature in every matrix (energy descent, inertia), or the mixed-stress one.
   void set_exact(bool on) { exact_ = on; }
 
-  ContactSet& set() { return *set_; }
-  const ContactSet& set() const { return *set_; }
-  ContactGuard& guard() { return *guard_; }
+  ContactSet& set() { return set_; }
+  const ContactSet& set() const { return set_; }
+  const SlidingContacts& sliding() const { return sliding_; }
+  ContactGuard& guard() { return guard_; }
 
   /// Evaluates the set at a state unless it stands there already. Returns the energy.
   double stand_at(const RodState& state);
@@ -46,29 +51,50 @@ class ContactTerms final : public FurtherTerms {
   };
   Deepest deepest_at(const RodState& state);
 
-  /// Adds points where the rod overlaps more than `most` radii between two points, and `window` radii to both sides: four
-  /// times as many there. They form a group (contact_set.h). Returns how many were added.
-  int refine(const RodState& state, double most, double window = 1.5);
+  /// Augmented Lagrangian step of all points at a state: the forces stay, the overlap goes. Where the rod overlaps deeper
+  /// between two points than at them, they then rest that much farther off.
+  /// Where it overlaps more than `most` radii beside a sliding point there is another edge, and another such point.
+  void update_shifts(const RodState& state, double most);
 
-  /// Gives the points around those that overlap more than `most` radii one shift in common.
-  void group_deep_points(const RodState& state, double most);
+  /// The farthest that a point which carries a force is from where it should touch (m): a shift too large does that.
+  double widest_gap(const RodState& state);
 
-  /// The same around given arc lengths: where an earlier solution had contact between this set's points.
-  int refine_around(const std::vector<double>& arc_lengths);
+  /// After update_shifts(): a law `factor` times as stiff, with shifts that leave the forces what they are.
+  void harden(double factor);
+
+  /// Shifts that make up the forces (N) of an earlier solution, by its places; the others become zero.
+  void take_forces(const std::vector<ContactForce>& forces);
+
+  /// No forces known: as at first.
+  void forget_forces();
 
  private:
-  Deepest deepest_between(int i, const VertexShape& shape) const;
-  int refine_intervals(const std::vector<int>& intervals, double window);
-  void replace_set(std::vector<ContactPoint> points, const std::vector<double>& shifts);
+  /// A place where the contact is known: a fixed or a sliding point.
+  struct Station {
+    double s;
+    int point;       ///< the fixed point there or before it
+    bool covered;    ///< a sliding point, or one that a sliding point stands for
+    double overlap;  ///< m; minus infinity when unknown or none
+    int obstacle;
+  };
+  void list_stations();
+  double evaluate(const VertexShape& shape);
+  Deepest deepest_between(const Station& low, const Station& high, const VertexShape& shape) const;
+  void track_edges(const RodState& state);
+  int point_before(double s) const;
   bool near_hold(double s, double radius) const;
 
   const RodSystem* system_;
   Element element_;
   std::vector<double> radii_;        ///< per segment
   std::vector<double> held_s_;       ///< arc lengths of held positions
-  std::unique_ptr<ContactSet> set_;
-  std::unique_ptr<ContactGuard> guard_;
+  ContactSet set_;
+  SlidingContacts sliding_;
+  ContactGuard guard_;
   std::vector<Vec3> x_;
+  std::vector<char> covered_;
+  std::vector<double> beside_;       ///< how much farther off each fixed point rests than its radius, m
+  std::vector<Station> stations_;
   double energy_ = 0;
   bool standing_ = false;
   bool exact_ = false, early_end_ = false;

@@ -17,6 +17,7 @@ constexpr double quadratic_regime = 1e-2;  // below this a step predicts the nex
 constexpr double settled_step = 1e-5;      // steps below this that shrink no more are rounding along a nearly neutral mode
 constexpr int settled_rounds = 5;
 constexpr double blocked_share = 0.3;      // of a step; the guards left less
+constexpr int long_cycle = 16;
 constexpr int most_left_out = 6;           // beyond this the wrench is not false: the rod is about to buckle
 
 }  // namespace
@@ -92,6 +93,17 @@ void Newton::leave_saddle(RodState& state) {
   network_.apply(state, step_, further_ ? further_->allowed(state, step_, share) : share);
 }
 
+/// Contacts that open and close can lead round in circles: when steps have not become smaller for long they are halved.
+double Newton::damped(double size) {
+  if (!further_) return 1;
+  if (size < 0.3 * smallest_of_cycle_) {
+    smallest_of_cycle_ = size;
+    since_smallest_ = 0;
+    return 1;
+  }
+  return ++since_smallest_ > long_cycle && size > quadratic_regime ? 0.5 : 1;
+}
+
 void Newton::factor(const RodState& state, const NewtonOptions& options, NewtonOutcome& out) {
   linear_.take_out_held(state);
   if (options.convex && stress_ != Stress::zero && linear_.shift() == 0 && left_out_ < most_left_out) {
@@ -111,6 +123,8 @@ NewtonOutcome Newton::run(RodState& state, const NewtonOptions& options, const R
   linear_.begin();
   previous_size_ = INFINITY;
   smallest_size_ = settled_step;
+  smallest_of_cycle_ = INFINITY;
+  since_smallest_ = 0;
   mode_moves_ = blocked_ = not_shrinking_ = left_out_ = 0;
   while (out.iterations < options.max_iterations) {
     if (const auto stop = context.stop()) {
@@ -124,7 +138,7 @@ NewtonOutcome Newton::run(RodState& state, const NewtonOptions& options, const R
     const double size = network_.size_of(step_);
     if (!std::isfinite(size)) return out;
 
-    std::optional<double> share = guarded_share(state, std::min(1.0, largest_step / size));
+    std::optional<double> share = guarded_share(state, damped(size) * std::min(1.0, largest_step / size));
     if (!share) continue;
     if (options.descend) share = descending_share(state, *share);
     if (!options.descend) network_.predict(step_, *share);

@@ -71,6 +71,7 @@ class Newton {
   double energy_at(const RodState& state);
   bool settled(double size, const NewtonOptions& options);
   void leave_saddle(RodState& state);
+  double damped(double size);
   void factor(const RodState& state, const NewtonOptions& options, NewtonOutcome& out);
 
   RodNetwork& network_;
@@ -86,6 +87,8 @@ class Newton {
   int blocked_ = 0;               ///< rounds in which the guards cut the step short
   int not_shrinking_ = 0;         ///< rounds at the level of rounding
   int mode_moves_ = 0;
+  double smallest_of_cycle_ = 0;
+  int since_smallest_ = 0;        ///< rounds since a step was clearly smaller than all before
   int left_out_ = 0;              ///< times that the wrench was left out of an indefinite matrix
 };
 

@@ -281,15 +281,21 @@ TEST_CASE("contact set: the shift keeps the force and takes over the penetration
   set.evaluate({Vec3(0, 0, 0.09), Vec3(0.1, 0, 0.2)});
   CHECK(set.deepest() == Approx(0.01));
   const Vec3 before = set.at(0)->gradient;
-  set.update_shifts();
+  set.update_shifts({0, 0});
   CHECK(set.shifts()[0] == Approx(0.01));
   CHECK(set.shifts()[1] == 0);
   set.evaluate({Vec3(0, 0, 0.1), Vec3(0.1, 0, 0.2)});
   CHECK((set.at(0)->gradient - before).norm() < 1e-12 * before.norm());
   CHECK(set.deepest() == Approx(0).margin(1e-15));
+  // Where the rod overlaps deeper beside the point, it rests that much farther off under the same force.
+  set.update_shifts({0.002, 0.003});
+  CHECK(set.shifts()[0] == Approx(0.012));
+  CHECK(set.shifts()[1] == 0);
+  set.evaluate({Vec3(0, 0, 0.102), Vec3(0.1, 0, 0.2)});
+  CHECK((set.at(0)->gradient - before).norm() < 1e-12 * before.norm());
   // A point that lifts off loses its shift again.
   set.evaluate({Vec3(0, 0, 0.2), Vec3(0.1, 0, 0.2)});
-  set.update_shifts();
+  set.update_shifts({0, 0});
   CHECK(set.shifts()[0] == 0);
   CHECK(!set.any());
 }
