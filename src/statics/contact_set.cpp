@@ -13,7 +13,7 @@ ContactSet::ContactSet(const ContactField& field, std::vector<ContactPoint> poin
       known_(points_.size()),
       shift_(points_.size(), 0.0),
       excluded_(points_.size(), 0),
-      covered_(points_.size(), 0),
+      first_cover_(points_.size() + 1, 0),
       was_active_(points_.size(), 0),
       active_(points_.size(), -1),
       predicted_(points_.size(), Vec3::Zero()) {}
@@ -46,7 +46,7 @@ double ContactSet::evaluate(const std::vector<Vec3>& x) {
   for (int i = 0; i < n; ++i) {
     active_[i] = -1;
     x_[i] = x[i];
-    if (excluded_[i] || covered_[i]) continue;
+    if (excluded_[i]) continue;
     if (!all_finite(x[i])) return std::numeric_limits<double>::infinity();
     if (out_of_reach(i, x[i])) {
       was_active_[i] = 0;
@@ -55,22 +55,41 @@ double ContactSet::evaluate(const std::vector<Vec3>& x) {
     terms_.clear();
     ++queries_;
     field_->terms(x[i], reach(i), terms_);
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const DistanceTerm& t : terms_) nearest = std::min(nearest, t.distance);
+    if (covered(i)) leave_out_covered(i);
     const PointContact c = contact_at(terms_, reach(i), points_[i].weight, law);
-    if (!(c.distance < reach(i))) {
-      was_active_[i] = 0;
-      if (known_[i].at != x[i]) {
-        ++queries_;
-        known_[i] = {x[i], field_->closest(x[i], reach(i) + horizon_).distance};
-      }
-      continue;
+    was_active_[i] = nearest < reach(i);
+    if (was_active_[i]) {
+      known_[i] = {x[i], nearest};
+    } else if (known_[i].at != x[i]) {
+      ++queries_;
+      known_[i] = {x[i], field_->closest(x[i], reach(i) + horizon_).distance};
     }
-    was_active_[i] = 1;
-    known_[i] = {x[i], c.distance};
+    if (!(c.distance < reach(i))) continue;
     active_[i] = static_cast<int>(contacts_.size());
     contacts_.push_back(c);
     energy += c.energy;
   }
   return energy;
+}
+
+void ContactSet::cover(const std::vector<Cover>& covers) {
+  covers_ = covers;
+  std::size_t next = 0;
+  for (int i = 0; i < size(); ++i) {
+    first_cover_[i] = static_cast<int>(next);
+    while (next < covers_.size() && covers_[next].point == i) ++next;
+  }
+  first_cover_[size()] = static_cast<int>(next);
+}
+
+void ContactSet::leave_out_covered(int i) {
+  std::erase_if(terms_, [&](const DistanceTerm& t) {
+    for (int k = first_cover_[i]; k < first_cover_[i + 1]; ++k)
+      if (faces(t, covers_[k].direction)) return true;
+    return false;
+  });
 }
 
 void ContactSet::add_to(const VertexShape& shape, Geometry geometry, BlockSystem& system) const {
@@ -121,6 +140,7 @@ ContactSet::Nearest ContactSet::nearest(int i, double range) {
   terms_.clear();
   ++queries_;
   field_->terms(x_[i], range, terms_);
+  if (covered(i)) leave_out_covered(i);
   for (const DistanceTerm& t : terms_)
     if (t.distance < nearest.distance) nearest = {t.distance, t.normal};
   return nearest;

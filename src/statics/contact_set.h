@@ -10,6 +10,9 @@
 
 namespace tendril {
 
+/// A term belongs to the contact in a direction when their angle is below 60 degrees.
+inline bool faces(const DistanceTerm& term, const Vec3& direction) { return term.normal.dot(direction) > 0.5; }
+
 class ContactSet {
  public:
   /// `field` must outlive the set. `horizon` (m): how far ahead distances are looked up; farther is only "beyond".
@@ -43,7 +46,7 @@ class ContactSet {
   void predict_standing();  ///< the forces of the last positions, as they are
   void forget_prediction();
 
-  /// Distance and its gradient at the nearest feature within `range` (m) of point i at the last positions.
+  /// Distance and its gradient at the nearest feature that is not covered within `range` (m) of point i at the last positions.
   struct Nearest {
     double distance = std::numeric_limits<double>::infinity();
     Vec3 normal = Vec3::Zero();
@@ -64,9 +67,15 @@ class ContactSet {
   void exclude(int i) { excluded_[i] = true; }
   bool excluded(int i) const { return excluded_[i]; }
 
-  /// Points whose contact something else stands for at present, one mark a point: like excluded ones until the next call.
-  void cover(const std::vector<char>& covered) { covered_ = covered; }
-  bool covered(int i) const { return covered_[i]; }
+  /// Something else stands for the contact of point `point` with what lies against `direction` (unit): terms whose normal
+  /// is within 60 degrees of it are left out.
+  struct Cover {
+    int point;
+    Vec3 direction;
+  };
+  /// `covers`: in the order of the points. They hold until the next call.
+  void cover(const std::vector<Cover>& covers);
+  bool covered(int i) const { return first_cover_[i] < first_cover_[i + 1]; }
 
   /// The largest radius - distance over all points at the last positions (m); negative without penetration.
   double deepest() const;
@@ -81,6 +90,7 @@ class ContactSet {
   };
   double reach(int i) const { return points_[i].radius + shift_[i]; }
   bool out_of_reach(int i, const Vec3& x);
+  void leave_out_covered(int i);
 
   const ContactField* field_;
   std::vector<ContactPoint> points_;
@@ -89,7 +99,8 @@ class ContactSet {
   std::vector<Known> known_;
   std::vector<double> shift_;
   std::vector<char> excluded_;
-  std::vector<char> covered_;
+  std::vector<Cover> covers_;
+  std::vector<int> first_cover_;        ///< by point, and one past the last
   std::vector<char> was_active_;
   std::vector<int> active_;             ///< index into contacts_, -1: out of reach
   std::vector<PointContact> contacts_;

@@ -10,7 +10,6 @@ namespace {
 constexpr int most_slides = 24;          // places looked at for one shape
 constexpr double longest_slide = 0.5;    // radii, between two looks
 constexpr double at_rest = 1e-10;        // radii: a slide this short is none
-constexpr double one_place = 0.05;       // radii: nearer to each other two sliding points are one
 constexpr double flat = 1e-6;            // slope over force: above it the point stands at a kink, not at a maximum
 
 double share_of(const Vec3& predicted, const Vec3& actual, bool exact) {
@@ -21,7 +20,7 @@ double share_of(const Vec3& predicted, const Vec3& actual, bool exact) {
 
 }  // namespace
 
-void SlidingContacts::add(double s, double length, double shift) {
+void SlidingContacts::add(double s, double length, double shift, const Vec3& direction) {
   const int last = static_cast<int>(s_.size()) - 2;
   const auto after = std::upper_bound(s_.begin(), s_.end(), s);
   const int segment = std::clamp(static_cast<int>(after - s_.begin()) - 1, 0, last);
@@ -30,6 +29,7 @@ void SlidingContacts::add(double s, double length, double shift) {
   point.at = contact_point_at(s_, radii_, element_, segment, xi);
   point.at.weight = length;
   point.shift = shift;
+  point.direction = direction;
   points_.push_back(point);
 }
 
@@ -56,6 +56,7 @@ double SlidingContacts::look_at(Point& p, double s, const VertexShape& shape, co
   const double reach = p.at.radius + p.shift;
   terms_.clear();
   field_->terms(p.x, reach, terms_);
+  std::erase_if(terms_, [&](const DistanceTerm& t) { return !faces(t, p.direction); });
   p.contact = contact_at(terms_, reach, p.at.weight, law);
   p.active = p.contact.distance < reach;
   p.bend = 0;
@@ -142,15 +143,8 @@ bool SlidingContacts::tidy() {
   const std::size_t before = points_.size();
   std::erase_if(points_, [](const Point& p) { return !p.active && p.shift == 0; });
   std::sort(points_.begin(), points_.end(), [](const Point& a, const Point& b) { return a.at.s < b.at.s; });
-  for (std::size_t i = 0; i + 1 < points_.size();) {
-    Point &a = points_[i], &b = points_[i + 1];
-    if (b.at.s - a.at.s > one_place * a.at.radius) {
-      ++i;
-      continue;
-    }
-    if (b.shift > a.shift) a = b;
-    points_.erase(points_.begin() + i + 1);
-  }
+  for (Point& p : points_)
+    if (p.active) p.direction = p.contact.normal;
   return points_.size() != before;
 }
 
@@ -160,10 +154,6 @@ std::vector<SlidingContacts::Point> SlidingContacts::take_flat(double sharpness,
     if (sharpness_at(p.at, shape) < sharpness) flat.push_back(p);
   std::erase_if(points_, [&](const Point& p) { return std::any_of(flat.begin(), flat.end(), [&](const Point& f) { return f.at.s == p.at.s; }); });
   return flat;
-}
-
-bool SlidingContacts::any_between(double low, double high) const {
-  return std::any_of(points_.begin(), points_.end(), [&](const Point& p) { return low <= p.at.s && p.at.s <= high; });
 }
 
 double SlidingContacts::deepest() const {

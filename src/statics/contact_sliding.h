@@ -11,8 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "statics/contact_energy.h"
-#include "statics/contact_points.h"
+#include "statics/contact_set.h"
 
 namespace tendril {
 
@@ -24,6 +23,7 @@ class SlidingContacts {
 
   struct Point {
     ContactPoint at;                ///< where it stands; `at.weight` is the length of rod it stands for
+    Vec3 direction = Vec3::Zero();  ///< unit: it stands for contact with what lies against this (contact_set.h, faces())
     double shift = 0;               ///< of the augmented Lagrangian, m
     PointContact contact;           ///< at the last shape
     Vec3 x = Vec3::Zero();          ///< m
@@ -37,8 +37,9 @@ class SlidingContacts {
   bool empty() const { return points_.empty(); }
   void clear() { points_.clear(); }
 
-  /// A point that stands for `length` (m) of rod, starts at the arc length `s` (m) and carries a shift (m).
-  void add(double s, double length, double shift);
+  /// A point that stands for `length` (m) of rod, starts at the arc length `s` (m), carries a shift (m) and touches what
+  /// lies against `direction`.
+  void add(double s, double length, double shift, const Vec3& direction);
 
   /// d2/ds2 of the distance to the nearest feature, times the radius, at any place of the rod: 1 for an edge across a
   /// straight rod, 0 for a plane. Zero where nothing is within 1.5 radii.
@@ -55,7 +56,7 @@ class SlidingContacts {
   void predict_standing();
   void forget_prediction();
 
-  /// Drops points without force, and all but one of those that have slid to one place. True when any was dropped.
+  /// Drops points without force, turns the others to what they now touch. True when any was dropped.
   bool tidy();
 
   /// shift <- max(0, shift + radius - distance).
@@ -70,9 +71,6 @@ class SlidingContacts {
   /// Takes out the points under which the surface has become so flat that their place along the rod means little: the
   /// second derivative of the distance along the rod times the radius is below `sharpness`.
   std::vector<Point> take_flat(double sharpness, const VertexShape& shape);
-
-  /// A sliding point that stands between two arc lengths (m).
-  bool any_between(double low, double high) const;
 
   /// The largest radius - distance (m); minus infinity without any.
   double deepest() const;

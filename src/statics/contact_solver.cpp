@@ -13,7 +13,7 @@ namespace {
 
 constexpr double soft = 0.1, hard = 0.01;            // overlap under the reference force, in radii
 constexpr double soft_tolerance = 2e-2;
-constexpr double loose_step = 0.02;                  // radii: what is left of a step between two updates
+constexpr double hard_step = 0.02, loose_step = 2e-3;  // radii: what may be left of a step before the first update, later
 constexpr double slow = 0.4, hardening = 4;          // an overlap that falls less than this makes the law so much stiffer
 constexpr int soft_iterations = 40, hard_iterations = 80, update_iterations = 60, descent_iterations = 300;
 
@@ -59,7 +59,7 @@ NewtonOutcome ContactSolver::stage(RodState& state, Start start, double toleranc
   return out;
 }
 
-double ContactSolver::loose() const { return std::max(loose_step * radius_ / system_->length(), options_.tolerance); }
+double ContactSolver::loose(double step) const { return std::max(step * radius_ / system_->length(), options_.tolerance); }
 
 bool ContactSolver::over(const ContactOutcome& out) const {
   return out.newton.status == Status::cancelled || out.newton.status == Status::timeout ||
@@ -69,14 +69,14 @@ bool ContactSolver::over(const ContactOutcome& out) const {
 /// The hard law by Newton's method, else by descent from where it got, else by descent from the start.
 NewtonOutcome ContactSolver::settle(RodState& state, const RodState& start, ContactOutcome& out,
                                     const RunContext& context) {
-  out.newton = stage(state, out.newton.status == Status::solved ? Start::warm : Start::cold, loose(),
+  out.newton = stage(state, out.newton.status == Status::solved ? Start::warm : Start::cold, loose(hard_step),
                      hard_iterations, false, context);
   for (int attempt = 0; attempt < 2 && out.newton.status != Status::solved && !over(out); ++attempt) {
     ++out.fallbacks;
     if (attempt == 1) state = start;
-    out.newton = stage(state, Start::cold, loose(), descent_iterations, true, context);
+    out.newton = stage(state, Start::cold, loose(hard_step), descent_iterations, true, context);
     if (out.newton.status == Status::solved || over(out)) break;
-    out.newton = stage(state, Start::warm, loose(), hard_iterations, false, context);
+    out.newton = stage(state, Start::warm, loose(hard_step), hard_iterations, false, context);
   }
   return out.newton;
 }
@@ -84,7 +84,7 @@ NewtonOutcome ContactSolver::settle(RodState& state, const RodState& start, Cont
 /// Each round lets Newton's method come only as near as the next update needs it; the last one goes all the way.
 void ContactSolver::remove_overlap(RodState& state, ContactOutcome& out, const RunContext& context) {
   const double enough = contact_.overlap * radius_;
-  double tolerance = loose(), before = std::numeric_limits<double>::infinity();
+  double tolerance = loose(loose_step), before = std::numeric_limits<double>::infinity();
   while (out.newton.status == Status::solved && !over(out)) {
     const double deepest = terms_.deepest_at(state).penetration;
     if (deepest <= enough && terms_.widest_gap(state) <= enough) {
@@ -92,7 +92,7 @@ void ContactSolver::remove_overlap(RodState& state, ContactOutcome& out, const R
       tolerance = options_.tolerance;
     } else {
       if (out.updates >= contact_.most_updates) break;
-      tolerance = loose();
+      tolerance = loose(loose_step);
       terms_.update_shifts(state, contact_.overlap);
       // Where the rod can roll about its contacts the law must be stiff enough for the updates to come to rest.
       if (out.updates > 1 && deepest > slow * before) terms_.harden(hardening);
@@ -124,7 +124,7 @@ ContactOutcome ContactSolver::run(RodState& state, const Equilibrium* from, cons
 
   if (from) {
     terms_.take_forces(from->contacts);
-    out.newton = stage(state, Start::warm, loose(), hard_iterations, false, context);
+    out.newton = stage(state, Start::warm, loose(hard_step), hard_iterations, false, context);
   } else {
     set.law = ContactLaw::for_overlap(reference_, radius_, soft);
     terms_.set_early_end(true);

@@ -58,7 +58,7 @@ class ContactSolver {
   NewtonOutcome settle(RodState& state, const RodState& start, ContactOutcome& out, const RunContext& context);
   void remove_overlap(RodState& state, ContactOutcome& out, const RunContext& context);
   void judge(const RodState& state, ContactOutcome& out);
-  double loose() const;
+  double loose(double step) const;
   bool over(const ContactOutcome& out) const;
   std::string place_of(int point) const;
 

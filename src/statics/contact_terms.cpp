@@ -87,14 +87,17 @@ double ContactTerms::stand_at(const RodState& state) {
 /// Sliding points first: where one of them presses it stands for the fixed points beside it.
 double ContactTerms::evaluate(const VertexShape& shape) {
   const double sliding = sliding_.evaluate(shape, set_.law);
-  covered_.assign(set_.size(), 0);
+  covers_.clear();
   for (const SlidingContacts::Point& p : sliding_.points()) {
     if (!p.active) continue;
     const double side = covered_side * p.at.radius;
-    for (int i = point_before(p.at.s); i >= 0 && p.at.s - set_.points()[i].s < side; --i) covered_[i] = 1;
-    for (int i = point_before(p.at.s) + 1; i < set_.size() && set_.points()[i].s - p.at.s < side; ++i) covered_[i] = 1;
+    const int before = point_before(p.at.s);
+    for (int i = before; i >= 0 && p.at.s - set_.points()[i].s < side; --i) covers_.push_back({i, p.direction});
+    for (int i = before + 1; i < set_.size() && set_.points()[i].s - p.at.s < side; ++i) covers_.push_back({i, p.direction});
   }
-  set_.cover(covered_);
+  std::stable_sort(covers_.begin(), covers_.end(),
+                   [](const ContactSet::Cover& a, const ContactSet::Cover& b) { return a.point < b.point; });
+  set_.cover(covers_);
   return sliding + set_.evaluate(x_);
 }
 
@@ -202,8 +205,9 @@ ContactTerms::Deepest ContactTerms::deepest_between(const Station& low, const St
   const auto overlap_at = [&](double s) {
     ContactPoint p = contact_point_at(mesh.s, radii_, element_, segment, (s - mesh.s[segment]) / mesh.segments[segment].length);
     p.radius = reach;
-    const ClosestPoint c = set_.field().closest(position_of(p, shape), 2 * reach + apart);
-    if (reach - c.distance > deepest.penetration) deepest = {reach - c.distance, c.obstacle, p};
+    const Vec3 position = position_of(p, shape);
+    const ClosestPoint c = set_.field().closest(position, 2 * reach + apart);
+    if (reach - c.distance > deepest.penetration) deepest = {reach - c.distance, c.obstacle, p, (position - c.point).normalized()};
     return reach - c.distance;
   };
   const double part = (high.s - low.s) / finer;
@@ -253,7 +257,7 @@ void ContactTerms::track_edges(const RodState& state) {
   for (int i = 0; i + 1 < set_.size(); ++i) {
     const ContactPoint &a = set_.points()[i], &b = set_.points()[i + 1];
     const double h = b.s - a.s, range = a.radius + 0.5 * h;
-    if (set_.excluded(i) || set_.excluded(i + 1) || sliding_.any_between(a.s, b.s) ||
+    if (set_.excluded(i) || set_.excluded(i + 1) ||
         (set_.distance_bound(i, set_.positions()[i]) >= range && set_.distance_bound(i + 1, set_.positions()[i + 1]) >= range)) {
       known = false;
       continue;
@@ -266,7 +270,9 @@ void ContactTerms::track_edges(const RodState& state) {
     if (!std::isfinite(at_a.distance) || !std::isfinite(at_b.distance)) continue;
     const Dip dip = dip_between(at_a.distance, at_a.normal.dot(tangent_a), at_b.distance, at_b.normal.dot(tangent_b), h);
     if (dip.distance >= a.radius || a.radius * dip.curvature < sharp_enough) continue;
-    sliding_.add(a.s + dip.share * h, h, std::max(shifts[i], shifts[i + 1]));
+    const Vec3 direction = (at_a.normal + at_b.normal).normalized();
+    if (!all_finite(direction)) continue;
+    sliding_.add(a.s + dip.share * h, h, std::max(shifts[i], shifts[i + 1]), direction);
     shifts[i] = shifts[i + 1] = 0;
     changed = true;
   }
@@ -303,7 +309,7 @@ void ContactTerms::update_shifts(const RodState& state, double most) {
     for (int k : {i, i + 1}) shifts[k] += overlap_under(set_.law, 0.5 * p.contact.gradient.norm() / set_.points()[k].weight);
   }
   set_.set_shifts(shifts);
-  for (const Deepest& edge : further_edges) sliding_.add(edge.point.s, edge.point.radius, edge.penetration);
+  for (const Deepest& edge : further_edges) sliding_.add(edge.point.s, edge.point.radius, edge.penetration, edge.normal);
   standing_ = false;
 }
 
@@ -357,7 +363,7 @@ void ContactTerms::take_forces(const std::vector<ContactForce>& forces) {
       shifts[after - points.begin()] = overlap_under(set_.law, force / after->weight);
     } else {
       const double apart = after->s - (after - 1)->s;
-      sliding_.add(contact.s, apart, overlap_under(set_.law, force / apart));
+      if (force > 0) sliding_.add(contact.s, apart, overlap_under(set_.law, force / apart), contact.force / force);
     }
   }
   set_.set_shifts(shifts);

@@ -48,6 +48,7 @@ class ContactTerms final : public FurtherTerms {
     double penetration = -1;
     int obstacle = -1;
     ContactPoint point{};
+    Vec3 normal = Vec3::Zero();  ///< from the surface to the centre line
   };
   Deepest deepest_at(const RodState& state);
 
@@ -92,7 +93,7 @@ class ContactTerms final : public FurtherTerms {
   SlidingContacts sliding_;
   ContactGuard guard_;
   std::vector<Vec3> x_;
-  std::vector<char> covered_;
+  std::vector<ContactSet::Cover> covers_;
   std::vector<double> beside_;       ///< how much farther off each fixed point rests than its radius, m
   std::vector<Station> stations_;
   double energy_ = 0;

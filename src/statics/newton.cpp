@@ -79,6 +79,8 @@ bool Newton::settled(double size, const NewtonOptions& options) {
   double left = size;
   if (size < quadratic_regime && previous_size_ < 10 * quadratic_regime)
     left = 10 * size * size * size / (previous_size_ * previous_size_) + 0.3 * size * previous_size_;
+  // Contact's second derivative grows with the root of the overlap: only the ratio of two steps can be relied on.
+  if (further_) left = std::max(left, size * std::clamp(size / previous_size_, 0.1, 1.0));
   not_shrinking_ = size < settled_step && size > 0.5 * smallest_size_ ? not_shrinking_ + 1 : 0;
   smallest_size_ = std::min(smallest_size_, size);
   return std::min(size, left) < options.tolerance || not_shrinking_ == settled_rounds;
