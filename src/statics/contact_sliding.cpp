@@ -33,24 +33,36 @@ void SlidingContacts::add(double s, double length, double shift, const Vec3& dir
   points_.push_back(point);
 }
 
-double SlidingContacts::sharpness_at(const ContactPoint& point, const VertexShape& shape) {
-  terms_.clear();
-  field_->terms(position_of(point, shape), 1.5 * point.radius, terms_);
-  const auto nearest = std::min_element(terms_.begin(), terms_.end(), [](const DistanceTerm& a, const DistanceTerm& b) { return a.distance < b.distance; });
-  if (nearest == terms_.end()) return 0;
-  const Vec3 tangent = position_of(slope_of(point, s_, element_), shape);
-  const Vec3 bent = position_of(curvature_of(point, s_, element_), shape);
-  return point.radius * (tangent.dot(nearest->hessian * tangent) + nearest->normal.dot(bent));
+/// The point of the rod at an arc length, looked for from a segment on.
+ContactPoint SlidingContacts::place(int near, double s) const {
+  int segment = near;
+  while (segment > 0 && s < s_[segment]) --segment;
+  while (segment + 2 < static_cast<int>(s_.size()) && s > s_[segment + 1]) ++segment;
+  ContactPoint point =
+      contact_point_at(s_, radii_, element_, segment, (s - s_[segment]) / (s_[segment + 1] - s_[segment]));
+  point.s = s;
+  return point;
+}
+
+double SlidingContacts::sharpness_of(const Point& p, const VertexShape& shape) {
+  const double aside = 0.5 * p.at.radius;
+  double rise = 0;
+  for (double side : {-aside, aside}) {
+    const ContactPoint there = place(p.at.segment, std::clamp(p.at.s + side, s_.front(), s_.back()));
+    terms_.clear();
+    field_->terms(position_of(there, shape), 2 * p.at.radius, terms_);
+    double nearest = 2 * p.at.radius;
+    for (const DistanceTerm& t : terms_)
+      if (faces(t, p.direction)) nearest = std::min(nearest, t.distance);
+    rise += nearest - p.contact.distance;
+  }
+  return rise * p.at.radius / (aside * aside);
 }
 
 /// Puts the point at `s` and evaluates its contact there; returns the slope Phi'(s).
 double SlidingContacts::look_at(Point& p, double s, const VertexShape& shape, const ContactLaw& law) {
-  int segment = p.at.segment;
-  while (segment > 0 && s < s_[segment]) --segment;
-  while (segment + 2 < static_cast<int>(s_.size()) && s > s_[segment + 1]) ++segment;
   const double weight = p.at.weight;
-  p.at = contact_point_at(s_, radii_, element_, segment, (s - s_[segment]) / (s_[segment + 1] - s_[segment]));
-  p.at.s = s;
+  p.at = place(p.at.segment, s);
   p.at.weight = weight;
   p.x = position_of(p.at, shape);
   const double reach = p.at.radius + p.shift;
@@ -150,9 +162,11 @@ bool SlidingContacts::tidy() {
 
 std::vector<SlidingContacts::Point> SlidingContacts::take_flat(double sharpness, const VertexShape& shape) {
   std::vector<Point> flat;
-  for (const Point& p : points_)
-    if (sharpness_at(p.at, shape) < sharpness) flat.push_back(p);
-  std::erase_if(points_, [&](const Point& p) { return std::any_of(flat.begin(), flat.end(), [&](const Point& f) { return f.at.s == p.at.s; }); });
+  std::erase_if(points_, [&](const Point& p) {
+    if (!p.active || sharpness_of(p, shape) >= sharpness) return false;
+    flat.push_back(p);
+    return true;
+  });
   return flat;
 }
 

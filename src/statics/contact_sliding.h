@@ -41,10 +41,6 @@ class SlidingContacts {
   /// lies against `direction`.
   void add(double s, double length, double shift, const Vec3& direction);
 
-  /// d2/ds2 of the distance to the nearest feature, times the radius, at any place of the rod: 1 for an edge across a
-  /// straight rod, 0 for a plane. Zero where nothing is within 1.5 radii.
-  double sharpness_at(const ContactPoint& point, const VertexShape& shape);
-
   /// Lets every point slide to its place on the shape and returns the energy (J).
   double evaluate(const VertexShape& shape, const ContactLaw& law);
 
@@ -68,8 +64,9 @@ class SlidingContacts {
     for (Point& p : points_) p.shift = f(p.shift);
   }
 
-  /// Takes out the points under which the surface has become so flat that their place along the rod means little: the
-  /// second derivative of the distance along the rod times the radius is below `sharpness`.
+  /// Takes out the points under which the surface has become so flat that their place along the rod means little. Half a
+  /// radius to both sides the distance is that of a parabola whose curvature times the radius is below `sharpness`: 1 for an
+  /// edge across a straight rod, 0 for a plane.
   std::vector<Point> take_flat(double sharpness, const VertexShape& shape);
 
   /// The largest radius - distance (m); minus infinity without any.
@@ -77,6 +74,8 @@ class SlidingContacts {
 
  private:
   void slide(Point& point, const VertexShape& shape, const ContactLaw& law);
+  double sharpness_of(const Point& point, const VertexShape& shape);
+  ContactPoint place(int near, double s) const;
   double look_at(Point& point, double s, const VertexShape& shape, const ContactLaw& law);
 
   const ContactField* field_;

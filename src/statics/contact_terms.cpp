@@ -251,6 +251,11 @@ void ContactTerms::track_edges(const RodState& state) {
   const VertexShape shape = shape_of(state);
   bool changed = sliding_.tidy();
   std::vector<double> shifts = set_.shifts();
+  for (const SlidingContacts::Point& p : sliding_.take_flat(flat_enough, shape)) {
+    const int i = point_before(p.at.s);
+    for (int k : {i, i + 1}) shifts[k] = std::max(shifts[k], 0.5 * p.shift);
+    changed = true;
+  }
   ContactSet::Nearest at_a, at_b;
   Vec3 tangent_b = Vec3::Zero();
   bool known = false;  // of point i, from the interval before
@@ -301,14 +306,7 @@ void ContactTerms::update_shifts(const RodState& state, double most) {
     if (set_.at(high.point)) beside[high.point] = std::max(beside[high.point], between.penetration - high.overlap);
   }
   sliding_.update_shifts();
-  const std::vector<SlidingContacts::Point> flat = sliding_.take_flat(flat_enough, shape);
   set_.update_shifts(beside);
-  std::vector<double> shifts = set_.shifts();
-  for (const SlidingContacts::Point& p : flat) {
-    const int i = point_before(p.at.s);
-    for (int k : {i, i + 1}) shifts[k] += overlap_under(set_.law, 0.5 * p.contact.gradient.norm() / set_.points()[k].weight);
-  }
-  set_.set_shifts(shifts);
   for (const Deepest& edge : further_edges) sliding_.add(edge.point.s, edge.point.radius, edge.penetration, edge.normal);
   standing_ = false;
 }
