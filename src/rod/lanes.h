@@ -134,7 +134,8 @@ inline M3<T> cross_matrix_of(const V3<T>& v) {
 template <class T>
 inline M3<T> symmetric_part(const M3<T>& a) {
   const T half = filled<T>(0.5);
-  return half * (a + transposed(a));
+  const T yx = half * (a.e[3] + a.e[1]), zx = half * (a.e[6] + a.e[2]), zy = half * (a.e[7] + a.e[5]);
+  return {{a.e[0], yx, zx, yx, a.e[4], zy, zx, zy, a.e[8]}};
 }
 template <class T>
 inline void add_to_diagonal(M3<T>& a, const T& s) {
@@ -146,6 +147,68 @@ template <class T>
 inline M3<T> diagonal_matrix(const V3<T>& d) {
   const T o{};
   return {{d.x, o, o, o, d.y, o, o, o, d.z}};
+}
+
+/// [v] m and m [v], without the products that are zero.
+template <class T>
+inline M3<T> cross_times(const V3<T>& v, const M3<T>& m) {
+  M3<T> r;
+#pragma GCC unroll 3
+  for (int j = 0; j < 3; ++j) {
+    r(0, j) = v.y * m(2, j) - v.z * m(1, j);
+    r(1, j) = v.z * m(0, j) - v.x * m(2, j);
+    r(2, j) = v.x * m(1, j) - v.y * m(0, j);
+  }
+  return r;
+}
+template <class T>
+inline M3<T> times_cross(const M3<T>& m, const V3<T>& v) {
+  M3<T> r;
+#pragma GCC unroll 3
+  for (int i = 0; i < 3; ++i) {
+    r(i, 0) = m(i, 1) * v.z - m(i, 2) * v.y;
+    r(i, 1) = m(i, 2) * v.x - m(i, 0) * v.z;
+    r(i, 2) = m(i, 0) * v.y - m(i, 1) * v.x;
+  }
+  return r;
+}
+
+/// [a] diag(k) [b].
+template <class T>
+inline M3<T> cross_diagonal_cross(const V3<T>& a, const V3<T>& k, const V3<T>& b) {
+  const T xy = k.x * b.y, xz = k.x * b.z, yx = k.y * b.x, yz = k.y * b.z, zx = k.z * b.x, zy = k.z * b.y;
+  return {{-(a.z * yz + a.y * zy), a.y * zx, a.z * yx,
+           a.x * zy, -(a.z * xz + a.x * zx), a.z * xy,
+           a.x * yz, a.y * xz, -(a.y * xy + a.x * yx)}};
+}
+
+/// m + [v].
+template <class T>
+inline M3<T> plus_cross(const M3<T>& m, const V3<T>& v) {
+  return {{m.e[0], m.e[1] - v.z, m.e[2] + v.y, m.e[3] + v.z, m.e[4], m.e[5] - v.x, m.e[6] - v.y, m.e[7] + v.x, m.e[8]}};
+}
+
+/// a^T b where that is known to be symmetric: six products of the nine.
+template <class T>
+inline M3<T> symmetric_product(const M3<T>& a, const M3<T>& b) {
+  M3<T> r;
+#pragma GCC unroll 3
+  for (int i = 0; i < 3; ++i)
+#pragma GCC unroll 3
+    for (int j = 0; j <= i; ++j) {
+      r(i, j) = a(0, i) * b(0, j) + a(1, i) * b(1, j) + a(2, i) * b(2, j);
+      r(j, i) = r(i, j);
+    }
+  return r;
+}
+template <class T>
+inline M3<T> transposed_times(const M3<T>& a, const M3<T>& b) {
+  M3<T> r;
+#pragma GCC unroll 3
+  for (int i = 0; i < 3; ++i)
+#pragma GCC unroll 3
+    for (int j = 0; j < 3; ++j) r(i, j) = a(0, i) * b(0, j) + a(1, i) * b(1, j) + a(2, i) * b(2, j);
+  return r;
 }
 
 /// Unit quaternion w + (x, y, z).

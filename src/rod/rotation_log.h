@@ -101,8 +101,8 @@ template <class T>
 inline M3<T> jacobian_derivative(const V3<T>& phi, const V3<T>& a, const JacobianCoefficients<T>& k, double sign) {
   const T along = dot(phi, a), u = dot(phi, phi), two = filled<T>(2);
   const V3<T> bend = along * phi - u * a;
-  M3<T> d = filled<T>(0.5 * sign) * cross_matrix_of(a) +
-            k.c * (outer(phi, a) - two * outer(a, phi)) + two * k.c1 * outer(bend, phi);
+  const V3<T> b = two * (k.c1 * bend - k.c * a);
+  M3<T> d = plus_cross(outer(k.c * phi, a) + outer(b, phi), filled<T>(0.5 * sign) * a);
   add_to_diagonal(d, k.c * along);
   return d;
 }

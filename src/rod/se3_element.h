@@ -66,21 +66,6 @@ struct SegmentHessian {
   V3<T> geometric_force;  ///< on d by the wrench of the geometric terms, world axes
 };
 
-/// What turns a step into the linearised change of the wrench.
-template <class T>
-struct WrenchRate {
-  M3<T> axes, a, g;   ///< R_a; A(phi); d(A d)/dphi
-  V3<T> d;            ///< R_a^T (r_b - r_a)
-  M3<T> p[2][2];      ///< C^-1 (I - J) / h, blocks (v, phi)
-
-  Wrench<T> change(const V3<T>& dr, const V3<T>& theta_a, const V3<T>& theta_b) const {
-    const V3<T> dd = transposed_times(axes, dr) + cross(d, theta_a);
-    const V3<T> dphi = transposed_times(a, theta_b) - a * theta_a;
-    const V3<T> dv = a * dd + g * dphi;
-    return {p[0][0] * dv + p[0][1] * dphi, p[1][0] * dv + p[1][1] * dphi};
-  }
-};
-
 namespace detail {
 
 /// 6x6 in (v, phi) ordering.
@@ -150,6 +135,37 @@ inline M3<T> varied_flexibility(const Se3Segment<T>& s, const V3<T>& flexibility
   return k + s.q * (kc + transposed(kc)) - s.q * s.q * (c * kc);  // [x]^T = -[x]
 }
 
+}  // namespace detail
+
+/// What turns a step into the linearised change of the wrench: C^-1 (I - J)/h dxi.
+template <class T>
+struct WrenchRate {
+  M3<T> axes, a, g;      ///< R_a; A(phi); d(A d)/dphi
+  V3<T> d;               ///< R_a^T (r_b - r_a)
+  T per_length;          ///< 1/h
+  detail::M6<T> l;       ///< factor of C
+  detail::M6<T> reduced; ///< L^-1 (I - J)
+
+  Wrench<T> change(const V3<T>& dr, const V3<T>& theta_a, const V3<T>& theta_b) const {
+    const V3<T> dd = transposed_times(axes, dr) + cross(d, theta_a);
+    const V3<T> dphi = transposed_times(a, theta_b) - a * theta_a;
+    const V3<T> dv = a * dd + g * dphi;
+    const T x[6] = {dv.x, dv.y, dv.z, dphi.x, dphi.y, dphi.z};
+    T w[6];
+#pragma GCC unroll 6
+    for (int i = 0; i < 6; ++i) {
+      T sum = reduced.e[i][0] * x[0];
+#pragma GCC unroll 6
+      for (int j = 1; j < 6; ++j) sum += reduced.e[i][j] * x[j];
+      w[i] = per_length * sum;
+    }
+    solve_upper(l, w);
+    return {{w[0], w[1], w[2]}, {w[3], w[4], w[5]}};
+  }
+};
+
+namespace detail {
+
 /// Strain state shared by gradient and second derivative.
 template <class T>
 struct Se3Strain {
@@ -166,15 +182,13 @@ struct Se3Strain {
     const T per_length = filled<T>(1) / s.h;
     rate_v = per_length * (a * d);
     rate_phi = per_length * phi;
-    const M3<T> cv = cross_matrix_of(rate_v), cp = cross_matrix_of(rate_phi);
-    const M3<T> kv = diagonal_matrix(s.flexibility_v), kp = diagonal_matrix(s.flexibility_phi);
     // C = K^-1 - q [Phi kv Phi + V kp V, V kp Phi; Phi kp V, Phi kp Phi]: the cross matrices are antisymmetric.
-    const M3<T> vk = cv * kp, pk = cp * kp;
-    const M3<T> rest_v = s.varies ? varied_flexibility(s, s.flexibility_v) : kv;
-    const M3<T> rest_phi = s.varies ? varied_flexibility(s, s.flexibility_phi) : kp;
-    l.set(0, 0, rest_v - s.q * (cp * kv * cp + vk * cv));
-    l.set(1, 0, -s.q * (pk * cv));
-    l.set(1, 1, rest_phi - s.q * (pk * cp));
+    const M3<T> rest_v = s.varies ? varied_flexibility(s, s.flexibility_v) : diagonal_matrix(s.flexibility_v);
+    const M3<T> rest_phi = s.varies ? varied_flexibility(s, s.flexibility_phi) : diagonal_matrix(s.flexibility_phi);
+    const V3<T> kv = s.q * s.flexibility_v, kp = s.q * s.flexibility_phi;
+    l.set(0, 0, rest_v - cross_diagonal_cross(rate_phi, kv, rate_phi) - cross_diagonal_cross(rate_v, kp, rate_v));
+    l.set(1, 0, -cross_diagonal_cross(rate_phi, kp, rate_v));
+    l.set(1, 1, rest_phi - cross_diagonal_cross(rate_phi, kp, rate_phi));
     factor(l);
   }
 
@@ -222,25 +236,19 @@ inline SegmentGradient<T> se3_gradient(const Se3Segment<T>& s, const Se3Ends<T>&
   return se3_gradient_of(s, x);
 }
 
-/// The second derivative in (v, phi), and C^-1 (I - J)/h, with the geometric terms' wrench w.
+/// The second derivative in (v, phi), and L^-1 (I - J), with the geometric terms' wrench w.
 template <class T>
 inline void se3_curvature_on_xi(const Se3Segment<T>& s, const detail::Se3Strain<T>& x, const Wrench<T>& w,
-                                const Wrench<T>& u, detail::M6<T>& hessian, WrenchRate<T>& rate) {
+                                const Wrench<T>& u, detail::M6<T>& hessian, detail::M6<T>& z) {
   using namespace detail;
-  const M3<T> n = cross_matrix_of(w.n), m = cross_matrix_of(w.m);
-  const M3<T> kv = diagonal_matrix(s.flexibility_v), kp = diagonal_matrix(s.flexibility_phi);
-  const M3<T> cv = cross_matrix_of(x.rate_v), cp = cross_matrix_of(x.rate_phi);
-  // M = [0 n; n m], ad = [Phi V; 0 Phi].
-  const M3<T> kpn = kp * n, kpm = kp * m, kvn = kv * n;
-  const M3<T> un = cross_matrix_of(u.n), um = cross_matrix_of(u.m);
-  M6<T> z;  // I - J
-  M3<T> identity = diagonal_matrix(V3<T>{filled<T>(1), filled<T>(1), filled<T>(1)});
-  z.set(0, 0, identity - s.q * (cv * kpn - um));
-  z.set(0, 1, -s.q * (cp * kvn + cv * kpm - un));
-  z.set(1, 0, -s.q * (cp * kpn));
-  z.set(1, 1, identity - s.q * (cp * kpm - um));
+  const V3<T> kv = s.q * s.flexibility_v, kp = s.q * s.flexibility_phi, un = s.q * u.n, um = s.q * u.m;
+  // J = q (ad_eps K^-1 M - ad_u) with M = [0 n; n m], ad = [Phi V; 0 Phi].
+  const M3<T> one = diagonal_matrix(V3<T>{filled<T>(1), filled<T>(1), filled<T>(1)});
+  z.set(0, 0, plus_cross(one - cross_diagonal_cross(x.rate_v, kp, w.n), um));
+  z.set(0, 1, plus_cross(-(cross_diagonal_cross(x.rate_phi, kv, w.n) + cross_diagonal_cross(x.rate_v, kp, w.m)), un));
+  z.set(1, 0, -cross_diagonal_cross(x.rate_phi, kp, w.n));
+  z.set(1, 1, plus_cross(one - cross_diagonal_cross(x.rate_phi, kp, w.m), um));
   const T per_length = filled<T>(1) / s.h;
-  M6<T> scaled;  // D^-1 L^-1 (I - J)
 #pragma GCC unroll 6
   for (int j = 0; j < 6; ++j) {
     T column[6];
@@ -248,28 +256,26 @@ inline void se3_curvature_on_xi(const Se3Segment<T>& s, const detail::Se3Strain<
     for (int i = 0; i < 6; ++i) column[i] = z.e[i][j];
     solve_lower(x.l, column);
 #pragma GCC unroll 6
-    for (int i = 0; i < 6; ++i) {
-      z.e[i][j] = column[i];
-      scaled.e[i][j] = x.l.e[i][i] * column[i];
-    }
-    solve_upper(x.l, column);
-#pragma GCC unroll 6
-    for (int i = 0; i < 6; ++i) rate.p[i / 3][j / 3].e[3 * (i % 3) + j % 3] = per_length * column[i];
+    for (int i = 0; i < 6; ++i) z.e[i][j] = column[i];
   }
-  const T qh = s.q * per_length;
-  hessian.set(0, 0, qh * (n * kpn));
-  hessian.set(0, 1, qh * (n * kpm));
-  hessian.set(1, 1, qh * (n * kvn + m * kpm));
+  const V3<T> hv = per_length * kv, hp = per_length * kp;
+  hessian.set(0, 0, cross_diagonal_cross(w.n, hp, w.n));
+  hessian.set(1, 0, transposed(cross_diagonal_cross(w.n, hp, w.m)));
+  hessian.set(1, 1, cross_diagonal_cross(w.n, hv, w.n) + cross_diagonal_cross(w.m, hp, w.m));
+#pragma GCC unroll 6
+  for (int k = 0; k < 6; ++k) {
+    const T weight = per_length * x.l.e[k][k];
+#pragma GCC unroll 6
+    for (int i = 0; i < 6; ++i) {
+      const T scaled = weight * z.e[k][i];
+#pragma GCC unroll 6
+      for (int j = 0; j <= i; ++j) hessian.e[i][j] += scaled * z.e[k][j];
+    }
+  }
 #pragma GCC unroll 6
   for (int i = 0; i < 6; ++i)
 #pragma GCC unroll 6
-    for (int j = i; j < 6; ++j) {
-      T sum = z.e[0][i] * scaled.e[0][j];
-#pragma GCC unroll 5
-      for (int k = 1; k < 6; ++k) sum += z.e[k][i] * scaled.e[k][j];
-      hessian.e[i][j] += per_length * sum;
-      hessian.e[j][i] = hessian.e[i][j];
-    }
+    for (int j = 0; j < i; ++j) hessian.e[j][i] = hessian.e[i][j];
 }
 
 /// Second derivatives of v = A(phi) d contracted with a force g, in (d, phi): rows d columns phi, and phi phi.
@@ -279,9 +285,9 @@ inline M3<T> second_derivative_of_v(const V3<T>& phi, const V3<T>& d, const V3<T
   const T pd = dot(phi, d), pg = dot(phi, g), dg = dot(d, g), u = dot(phi, phi);
   const T value = pd * pg - u * dg;
   const V3<T> slope = pg * d + pd * g - two * dg * phi;
-  const M3<T> od = outer(d, g), os = outer(phi, slope);
-  M3<T> f = k.c * (od + transposed(od)) + two * k.c1 * (os + transposed(os)) +
-            filled<T>(4) * k.c2 * value * outer(phi, phi);
+  const V3<T> t = two * (k.c1 * slope + k.c2 * value * phi), e = k.c * d;
+  M3<T> f = outer(phi, t) + outer(e, g);
+  f = f + transposed(f);
   add_to_diagonal(f, two * (k.c1 * value - k.c * dg));
   return f;
 }
@@ -332,35 +338,35 @@ inline SegmentGradient<T> se3_element(const Se3Segment<T>& s, const Se3Ends<T>& 
   rate.a = x.a;
   rate.g = x.g;
   rate.d = x.d;
+  rate.per_length = filled<T>(1) / s.h;
+  rate.l = x.l;
   detail::M6<T> xi;
-  se3_curvature_on_xi(s, x, w, u, xi, rate);
+  se3_curvature_on_xi(s, x, w, u, xi, rate.reduced);
 
   // From (v, phi) to (d, phi).
   const M3<T> vv = xi.get(0, 0), vp = xi.get(0, 1), pp = xi.get(1, 1);
-  const M3<T> at = transposed(x.a), gt = transposed(x.g);
   const M3<T> vvg = vv * x.g + vp;
-  const M3<T> gvp = gt * vp;
-  const M3<T> h_dd = at * (vv * x.a);
-  const M3<T> h_dp = at * vvg + jacobian_derivative(x.phi, g.n, x.k, -1);
-  const M3<T> h_pp =
-      gt * (vv * x.g) + gvp + transposed(gvp) + pp + second_derivative_of_v(x.phi, x.d, g.n, x.k);
+  const M3<T> h_dd = symmetric_product(x.a, vv * x.a);
+  const M3<T> h_dp = transposed_times(x.a, vvg) + jacobian_derivative(x.phi, g.n, x.k, -1);
+  const M3<T> h_pp = transposed_times(x.g, vvg) + transposed_times(vp, x.g) + pp +
+                     second_derivative_of_v(x.phi, x.d, g.n, x.k);
 
-  // From (d, phi) to the ends: dd = R_a^T (dr_b - dr_a) + [d] theta_a, dphi = A^T theta_b - A theta_a.
-  const M3<T> cd = cross_matrix_of(x.d);
-  const M3<T> h_dp_a = h_dp * x.a, h_dp_b = h_dp * at;
-  const M3<T> derivative = jacobian_derivative(x.phi, m, x.k, 1);
-  const M3<T> a_pp = x.a * h_pp;
-  const M3<T> h_da = h_dd * cd - h_dp_a - cross_matrix_of(f);
-  const M3<T> cd_dp_a = cd * h_dp_a;  // [d]^T = -[d]
-  M3<T> fd = outer(f, x.d);
-  fd = filled<T>(0.5) * (fd + transposed(fd));
-  add_to_diagonal(fd, -dot(f, x.d));
-  out.aa = -(cd * (h_dd * cd)) + cd_dp_a + transposed(cd_dp_a) + at * (h_pp * x.a) +
-           symmetric_part(jacobian_derivative(x.phi, m, x.k, -1) * x.a) + fd;
-  out.ab = -(cd * h_dp_b) - at * (h_pp * at) - transposed(derivative * x.a);
-  out.bb = a_pp * at + symmetric_part(derivative * at);
+  // From (d, phi) to the ends: dd = R_a^T (dr_b - dr_a) + [d] theta_a, dphi = A^T theta_b - A theta_a; A^T = A + [phi].
+  const M3<T> h_dp_a = h_dp * x.a, h_dp_b = h_dp_a + times_cross(h_dp, x.phi);
+  const M3<T> h_pp_a = h_pp * x.a, h_pp_b = h_pp_a + times_cross(h_pp, x.phi);
+  const M3<T> derivative_a = jacobian_derivative(x.phi, m, x.k, 1) * x.a;
+  const M3<T> derivative_b = derivative_a + times_cross(jacobian_derivative(x.phi, m, x.k, 1), x.phi);
+  const M3<T> dd_d = times_cross(h_dd, x.d);
+  const M3<T> h_da = plus_cross(dd_d - h_dp_a, -f);
+  const M3<T> d_dp_a = cross_times(x.d, h_dp_a - filled<T>(0.5) * dd_d);  // [d]^T = -[d]
+  const T fd = dot(f, x.d);
+  M3<T> aa = d_dp_a + d_dp_a + outer(f, x.d) + derivative_a - cross_times(m, x.a);
+  add_to_diagonal(aa, -fd);
+  out.aa = symmetric_product(x.a, h_pp_a) + symmetric_part(aa);
+  out.ab = -cross_times(x.d, h_dp_b) - transposed_times(x.a, h_pp_b) - transposed(derivative_a);
+  out.bb = symmetric_product(transposed(x.a), h_pp_b) + symmetric_part(derivative_b);
   const M3<T> axes_t = transposed(x.axes);
-  out.dd = x.axes * (h_dd * axes_t);
+  out.dd = symmetric_product(axes_t, h_dd * axes_t);
   out.da = x.axes * h_da;
   out.db = x.axes * h_dp_b;
   out.geometric_force = x.axes * f;

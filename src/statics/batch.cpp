@@ -103,6 +103,7 @@ void Batch::begin(const Start& start) {
   frames_ = layout_.node_frames(start.vertices, start.branches);
   // At an equilibrium an iteration changes nothing but the wrenches, which become the actual ones.
   BatchWorker(*this).refine(frames_, wrenches_);
+  predictor_ = BatchPredictor(layout_, *kernel_, parameters_, frames_, wrenches_);
 }
 
 // ---------------------------------------------------------------- outcomes

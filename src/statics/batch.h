@@ -1,6 +1,6 @@
 // Many outcomes of one design at once: equilibria of systems that share their structure and differ in numbers.
 //
-// Every outcome starts from the nominal equilibrium; four or eight of them share the lanes of one SIMD register, by the
+// Every outcome starts from the nominal equilibrium, moved by its first-order change; four or eight of them share the lanes of one SIMD register, by the
 // processor that the program runs on. What an outcome gets depends on neither its neighbours in the lanes, nor the number
 // of threads, nor the order of calls: the same bits always (and the same for AVX2 and AVX-512). An outcome that does not
 // settle within a few iterations is solved by the scalar solver.
@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "base/run_context.h"
-#include "statics/batch_layout.h"
+#include "statics/batch_predictor.h"
 #include "statics/equilibrium.h"
 
 namespace tendril {
@@ -109,6 +109,7 @@ class Batch {
   BatchLayout layout_;
   const BatchKernel* kernel_;
   std::vector<double> parameters_, frames_, wrenches_;  ///< of the nominal equilibrium
+  BatchPredictor predictor_;
 };
 
 }  // namespace tendril

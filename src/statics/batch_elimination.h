@@ -27,48 +27,69 @@ struct NodeFactor {
 /// Row r of the strict lower triangle begins here in NodeFactor::l.
 constexpr int strict(int row, int column) { return row * (row - 1) / 2 + column; }
 
-/// L D L^T of the node's block in place of it; its coupling u (6x6 to the parent) and gradient go along. `positive` falls
-/// to zero where a pivot is not positive.
+/// L D L^T of the node's block; its coupling u (6x6 to the parent) and gradient go along, and what is left is taken off
+/// `parent`. `positive` falls to zero where a pivot is not positive. Works on copies: they cannot overlap with anything.
 template <class T, bool coupled>
-inline void eliminate(NodeTerms<T>& own, T* u, NodeTerms<T>* parent, NodeFactor<T>& out, T& positive) {
+inline void eliminate(const NodeTerms<T>& own, const T* u, NodeTerms<T>* parent, NodeFactor<T>& out, T& positive) {
   const T nothing{};
+  T d[21], g[6], inverse[6], sound = positive;
+#pragma GCC unroll 21
+  for (int i = 0; i < 21; ++i) d[i] = own.d[i];
+#pragma GCC unroll 6
+  for (int i = 0; i < 6; ++i) g[i] = own.g[i];
 #pragma GCC unroll 6
   for (int k = 0; k < 6; ++k) {
-    const T pivot = own.d[lower(k, k)];
-    positive = pivot > nothing ? positive : nothing;
-    const T inverse = filled<T>(1) / pivot;
+    const T pivot = d[lower(k, k)];
+    sound = pivot > nothing ? sound : nothing;
+    inverse[k] = filled<T>(1) / pivot;
+    T column[6];
 #pragma GCC unroll 6
     for (int r = k + 1; r < 6; ++r) {
-      const T l = own.d[lower(r, k)] * inverse;
-      out.l[strict(r, k)] = l;
-#pragma GCC unroll 6
-      for (int c = k + 1; c <= r; ++c) own.d[lower(r, c)] -= l * own.d[lower(c, k)];
-      if constexpr (coupled) {
-#pragma GCC unroll 6
-        for (int c = 0; c < 6; ++c) u[6 * r + c] -= l * u[6 * k + c];
-      }
-      own.g[r] -= l * own.g[k];
+      column[r] = d[lower(r, k)];
+      d[lower(r, k)] *= inverse[k];
     }
-    if constexpr (coupled) {
 #pragma GCC unroll 6
-      for (int c = 0; c < 6; ++c) out.row[6 * k + c] = inverse * u[6 * k + c];
+    for (int r = k + 1; r < 6; ++r) {
+#pragma GCC unroll 6
+      for (int c = k + 1; c <= r; ++c) d[lower(r, c)] -= d[lower(r, k)] * column[c];
+      g[r] -= d[lower(r, k)] * g[k];
     }
-    out.rhs[k] = inverse * own.g[k];
   }
+  positive = sound;
+#pragma GCC unroll 6
+  for (int r = 1; r < 6; ++r)
+#pragma GCC unroll 6
+    for (int k = 0; k < r; ++k) out.l[strict(r, k)] = d[lower(r, k)];
+#pragma GCC unroll 6
+  for (int k = 0; k < 6; ++k) out.rhs[k] = inverse[k] * g[k];
   if constexpr (coupled) {
+    // Column by column of the coupling: y = L^-1 u, then what it takes off the parent's row.
+    T y[36];
 #pragma GCC unroll 6
-    for (int r = 0; r < 6; ++r) {
+    for (int c = 0; c < 6; ++c) {
 #pragma GCC unroll 6
-      for (int c = 0; c <= r; ++c) {
-        T sum = u[r] * out.row[c];
+      for (int r = 0; r < 6; ++r) {
+        T sum = u[6 * r + c];
 #pragma GCC unroll 6
-        for (int k = 1; k < 6; ++k) sum += u[6 * k + r] * out.row[6 * k + c];
-        parent->d[lower(r, c)] -= sum;
+        for (int k = 0; k < r; ++k) sum -= d[lower(r, k)] * y[6 * k + c];
+        y[6 * r + c] = sum;
       }
-      T sum = u[r] * out.rhs[0];
+      T scaled[6], sum = parent->g[c];
 #pragma GCC unroll 6
-      for (int k = 1; k < 6; ++k) sum += u[6 * k + r] * out.rhs[k];
-      parent->g[r] -= sum;
+      for (int k = 0; k < 6; ++k) {
+        scaled[k] = inverse[k] * y[6 * k + c];
+        sum -= scaled[k] * g[k];
+      }
+      parent->g[c] = sum;
+#pragma GCC unroll 6
+      for (int k = 0; k < 6; ++k) out.row[6 * k + c] = scaled[k];
+#pragma GCC unroll 6
+      for (int r = 0; r <= c; ++r) {
+        T left = parent->d[lower(c, r)];
+#pragma GCC unroll 6
+        for (int k = 0; k < 6; ++k) left -= scaled[k] * y[6 * k + r];
+        parent->d[lower(c, r)] = left;
+      }
     }
   }
 }

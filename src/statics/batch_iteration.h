@@ -109,8 +109,17 @@ class BatchIteration {
   void assemble(int index);
   void add_weight(const Se3Segment<T>& segment, const V3<T>& weight, const T& sign, bool slope, const End& at,
                   EndTerms<T>& end, V3<T>& geometric) const;
+  struct GeometricForces {
+    V3<T> start, end;
+  };
+  void join(const tendril::BatchSegment& segment, const Segment& kept, const GeometricForces& forces, EndTerms<T>& start,
+            EndTerms<T>& end, Coupling<T>& coupling) const;
   void take_to_branch(int node, int joint, const M3<T>& lever, const V3<T>& geometric, EndTerms<T>& end) const;
-  void gather(const EndTerms<T>& end, bool fresh, NodeTerms<T>& slot) const;
+  template <bool fresh>
+  static void gather(const EndTerms<T>& end, NodeTerms<T>& slot);
+  static void gather(const EndTerms<T>& end, bool fresh, NodeTerms<T>& slot);
+  template <bool reversed>
+  static void place(const Coupling<T>& coupling, T* u);
   void take_out_held(int node, NodeTerms<T>& own, T* u, NodeTerms<T>* parent);
   void close_root(int k);
   void back(int index);
@@ -170,29 +179,72 @@ void BatchIteration<T>::take_to_branch(int node, int joint, const M3<T>& lever, 
   end.tt = tt;
 }
 
+/// Sets or adds one end's terms.
 template <class T>
-void BatchIteration<T>::gather(const EndTerms<T>& end, bool fresh, NodeTerms<T>& slot) const {
-  if (fresh) slot = NodeTerms<T>{};
+template <bool fresh>
+inline void BatchIteration<T>::gather(const EndTerms<T>& end, NodeTerms<T>& slot) {
+  auto put = [](T& to, const T& value) {
+    if constexpr (fresh) to = value;
+    else to += value;
+  };
 #pragma GCC unroll 3
   for (int r = 0; r < 3; ++r) {
 #pragma GCC unroll 3
     for (int c = 0; c <= r; ++c) {
-      slot.d[lower(r, c)] += end.rr(r, c);
-      slot.d[lower(3 + r, 3 + c)] += end.tt(r, c);
+      put(slot.d[lower(r, c)], end.rr(r, c));
+      put(slot.d[lower(3 + r, 3 + c)], end.tt(r, c));
     }
 #pragma GCC unroll 3
-    for (int c = 0; c < 3; ++c) slot.d[lower(3 + r, c)] += end.rt(c, r);
+    for (int c = 0; c < 3; ++c) put(slot.d[lower(3 + r, c)], end.rt(c, r));
+    put(slot.g[r], end.force[r]);
+    put(slot.g[3 + r], end.moment[r]);
   }
-  slot.g[0] += end.force.x;
-  slot.g[1] += end.force.y;
-  slot.g[2] += end.force.z;
-  slot.g[3] += end.moment.x;
-  slot.g[4] += end.moment.y;
-  slot.g[5] += end.moment.z;
 }
 
 template <class T>
-void BatchIteration<T>::assemble(int index) {
+inline void BatchIteration<T>::gather(const EndTerms<T>& end, bool fresh, NodeTerms<T>& slot) {
+  if (fresh) gather<true>(end, slot);
+  else gather<false>(end, slot);
+}
+
+/// The coupling as rows of the child and columns of the parent.
+template <class T>
+template <bool reversed>
+inline void BatchIteration<T>::place(const Coupling<T>& coupling, T* u) {
+#pragma GCC unroll 3
+  for (int r = 0; r < 3; ++r)
+#pragma GCC unroll 3
+    for (int c = 0; c < 3; ++c) {
+      u[6 * r + c] = reversed ? coupling.rr(c, r) : coupling.rr(r, c);
+      u[6 * r + 3 + c] = reversed ? coupling.tr(c, r) : coupling.rt(r, c);
+      u[18 + 6 * r + c] = reversed ? coupling.rt(c, r) : coupling.tr(r, c);
+      u[21 + 6 * r + c] = reversed ? coupling.tt(c, r) : coupling.tt(r, c);
+    }
+}
+
+/// Expresses the ends that belong to branch points by those points' unknowns.
+template <class T>
+[[gnu::noinline]] void BatchIteration<T>::join(const tendril::BatchSegment& segment, const Segment& kept,
+                                               const GeometricForces& forces, EndTerms<T>& start, EndTerms<T>& end,
+                                               Coupling<T>& coupling) const {
+  const int start_node = segment.reversed ? segment.parent : segment.child;
+  const int end_node = segment.reversed ? segment.child : segment.parent;
+  if (segment.start_joint >= 0) {
+    take_to_branch(start_node, segment.start_joint, kept.start_lever, forces.start, start);
+    const M3<T> turn = turned_joint(segment.start_joint);
+    coupling.tr = transposed_times(kept.start_lever, coupling.rr) + turn * coupling.tr;
+    coupling.tt = transposed_times(kept.start_lever, coupling.rt) + turn * coupling.tt;
+  }
+  if (segment.end_joint >= 0) {
+    take_to_branch(end_node, segment.end_joint, kept.end_lever, forces.end, end);
+    const M3<T> turn_t = transposed(turned_joint(segment.end_joint));
+    coupling.rt = coupling.rr * kept.end_lever + coupling.rt * turn_t;
+    coupling.tt = coupling.tr * kept.end_lever + coupling.tt * turn_t;
+  }
+}
+
+template <class T>
+[[gnu::flatten]] void BatchIteration<T>::assemble(int index) {
   const tendril::BatchSegment& segment = s_.segments[index];
   const int start_node = segment.reversed ? segment.parent : segment.child;
   const int end_node = segment.reversed ? segment.child : segment.parent;
@@ -239,33 +291,21 @@ void BatchIteration<T>::assemble(int index) {
     end.force = end.force - vector(parameters_ + segment.end_force);
     end_force = end_force - vector(parameters_ + segment.end_force);
   }
-  if (segment.start_joint >= 0) {
-    take_to_branch(start_node, segment.start_joint, kept.start_lever, start_force, start);
-    const M3<T> lever_t = transposed(kept.start_lever), turn = turned_joint(segment.start_joint);
-    coupling.tr = lever_t * coupling.rr + turn * coupling.tr;
-    coupling.tt = lever_t * coupling.rt + turn * coupling.tt;
-  }
-  if (segment.end_joint >= 0) {
-    take_to_branch(end_node, segment.end_joint, kept.end_lever, end_force, end);
-    const M3<T> turn_t = transposed(turned_joint(segment.end_joint));
-    coupling.rt = coupling.rr * kept.end_lever + coupling.rt * turn_t;
-    coupling.tt = coupling.tr * kept.end_lever + coupling.tt * turn_t;
-  }
+  if (segment.start_joint >= 0 || segment.end_joint >= 0)
+    join(segment, kept, {start_force, end_force}, start, end, coupling);
 
   T u[36];
-#pragma GCC unroll 3
-  for (int r = 0; r < 3; ++r)
-#pragma GCC unroll 3
-    for (int c = 0; c < 3; ++c) {
-      u[6 * r + c] = segment.reversed ? coupling.rr(c, r) : coupling.rr(r, c);
-      u[6 * r + 3 + c] = segment.reversed ? coupling.tr(c, r) : coupling.rt(r, c);
-      u[18 + 6 * r + c] = segment.reversed ? coupling.rt(c, r) : coupling.tr(r, c);
-      u[21 + 6 * r + c] = segment.reversed ? coupling.tt(c, r) : coupling.tt(r, c);
-    }
   NodeTerms<T>& own = slots_[segment.child_slot];
   NodeTerms<T>& parent = slots_[segment.parent_slot];
-  gather(segment.reversed ? end : start, segment.child_fresh, own);
-  gather(segment.reversed ? start : end, segment.parent_fresh, parent);
+  if (segment.reversed) {
+    place<true>(coupling, u);
+    gather(end, segment.child_fresh, own);
+    gather(start, segment.parent_fresh, parent);
+  } else {
+    place<false>(coupling, u);
+    gather(start, segment.child_fresh, own);
+    gather(end, segment.parent_fresh, parent);
+  }
   const int held = s_.nodes[segment.child].held;
   if (held) take_out_held(segment.child, own, u, &parent);
   if (held == 3) return;
@@ -274,7 +314,7 @@ void BatchIteration<T>::assemble(int index) {
 
 /// Known steps of held unknowns go to the other side; their rows become x = way.
 template <class T>
-void BatchIteration<T>::take_out_held(int node, NodeTerms<T>& own, T* u, NodeTerms<T>* parent) {
+[[gnu::noinline]] void BatchIteration<T>::take_out_held(int node, NodeTerms<T>& own, T* u, NodeTerms<T>* parent) {
   const tendril::BatchNode& n = s_.nodes[node];
   Held& held = held_[n.held_index];
   held.terms = own;

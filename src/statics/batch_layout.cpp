@@ -300,6 +300,42 @@ std::vector<double> BatchLayout::node_frames(const std::vector<std::vector<Frame
   return frames;
 }
 
+std::vector<BatchLayout::Number> BatchLayout::numbers() const {
+  std::vector<Number> all;
+  auto plain = [&](int offset, int count, double scale) {
+    for (int i = 0; i < count; ++i) all.push_back({offset + i, -1, scale});
+  };
+  auto frame = [&](int offset) {
+    plain(offset, 3, length_);
+    for (int axis = 0; axis < 3; ++axis) all.push_back({offset + 3, axis, 1});
+  };
+  std::vector<double> nominal(parameters_);
+  read(nominal_, nominal.data());
+  for (int k = 0; k < rods(); ++k) {
+    const double length = nominal_.rods[k].rod.length;
+    for (const Interval& interval : rods_[k].intervals) {
+      const double* own = &nominal[interval.stiffness];
+      for (int i = 0; i < 7; ++i) plain(interval.stiffness + i, 1, own[i]);
+      const double stiffness = 1 / (std::max(own[4], own[5]) * length * length);
+      plain(interval.stiffness + 7, 3, stiffness / length);
+      for (int i = 0; interval.rates >= 0 && i < interval.count; ++i) {
+        plain(interval.rates + i * BatchBlocks::rates, 3, 1);
+        plain(interval.rates + i * BatchBlocks::rates + 3, 3, 1 / length);
+      }
+    }
+    for (const Vertex& vertex : rods_[k].vertices)
+      if (vertex.joint >= 0) frame(vertex.joint);
+    std::vector<int> loads = rods_[k].load_offset;
+    std::sort(loads.begin(), loads.end());
+    loads.erase(std::unique(loads.begin(), loads.end()), loads.end());
+    for (const int load : loads)
+      plain(load, 3, 1 / (nominal[rods_[k].intervals[0].stiffness + 4] * length * length));
+  }
+  for (const BatchNode& node : nodes_)
+    if (node.held) frame(node.target);
+  return all;
+}
+
 std::vector<double> BatchLayout::arc_lengths(int rod, const double* parameters) const {
   std::vector<double> s = {0};
   for (const Interval& interval : rods_[rod].intervals) {

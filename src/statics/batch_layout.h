@@ -35,6 +35,14 @@ class BatchLayout {
   std::vector<double> node_frames(const std::vector<std::vector<Frame>>& vertices,
                                   const std::vector<Frame>& branches) const;
 
+  /// What may vary, for derivatives: plain numbers, and rotations of frames by axis.
+  struct Number {
+    int offset;    ///< of the number, or of the quaternion
+    int axis;      ///< 0-2: a rotation about that axis of the frame; -1: a plain number
+    double scale;  ///< what is usual for it
+  };
+  std::vector<Number> numbers() const;
+
   // What is where.
   int rods() const { return static_cast<int>(rods_.size()); }
   int vertices(int rod) const { return static_cast<int>(rods_[rod].vertices.size()); }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <new>
 
 #include "base/error.h"
 #include "statics/batch_scalar.h"
@@ -41,34 +40,12 @@ BatchWorker::BatchWorker(const Batch& batch)
       problem_(batch.nominal_),
       numbers_(layout_.parameter_count()),
       state_(lanes_),
-      parameters_(array(layout_.parameter_count())),
-      deferred_(array(1)),
-      frames_(array(7 * layout_.node_count())),
-      wrenches_(array(BatchBlocks::wrench * layout_.segment_count())),
-      reactions_(array(6 * layout_.held_count())),
-      size_(array(1)),
-      positive_(array(1)),
-      scratch_(array(batch.kernel_->scratch_size(layout_.structure(), layout_.held_count(), layout_.slot_count()))) {}
-
-BatchWorker::Array BatchWorker::array(std::size_t numbers_a_lane) const {
-  const std::size_t bytes = (std::max<std::size_t>(1, numbers_a_lane) * lanes_ * sizeof(double) + 63) / 64 * 64;
-  Array array(static_cast<double*>(std::aligned_alloc(64, bytes)));
-  if (!array) throw std::bad_alloc();
-  std::fill_n(array.get(), bytes / sizeof(double), 0.0);
-  return array;
-}
-
-void BatchWorker::spread(const std::vector<double>& numbers, double* to, int lane) const {
-  for (std::size_t i = 0; i < numbers.size(); ++i) to[i * lanes_ + lane] = numbers[i];
-}
+      pack_(layout_, *batch.kernel_) {}
 
 /// An idle lane iterates at the nominal equilibrium, where nothing can go wrong.
 void BatchWorker::rest(int lane) {
   state_[lane].outcome = -1;
-  spread(batch_.parameters_, parameters_.get(), lane);
-  spread(batch_.frames_, frames_.get(), lane);
-  spread(batch_.wrenches_, wrenches_.get(), lane);
-  deferred_[lane] = 0;
+  pack_.set(lane, batch_.parameters_, batch_.frames_, batch_.wrenches_, false);
 }
 
 /// Puts the next outcome that fits into the lane; false when there is none left.
@@ -85,10 +62,8 @@ bool BatchWorker::take_outcome(int lane) {
       solve_scalar(outcome, 0);
       continue;
     }
-    spread(numbers_, parameters_.get(), lane);
-    spread(batch_.frames_, frames_.get(), lane);
-    spread(batch_.wrenches_, wrenches_.get(), lane);
-    deferred_[lane] = 1;
+    const double size = batch_.predictor_.predict(numbers_, first_frames_, first_wrenches_, scratch_);
+    pack_.set(lane, numbers_, first_frames_, first_wrenches_, rough(size));
     state_[lane] = {outcome, 0, 0, INFINITY, settled_step};
     return true;
   }
@@ -96,28 +71,23 @@ bool BatchWorker::take_outcome(int lane) {
   return false;
 }
 
-BatchLanes BatchWorker::pack() const {
-  return {parameters_.get(), deferred_.get(), frames_.get(),   wrenches_.get(),
-          reactions_.get(),  size_.get(),     positive_.get(), scratch_.get()};
-}
-
 void BatchWorker::refine(std::vector<double>& frames, std::vector<double>& wrenches) {
   const BatchStructure structure = layout_.structure();
   for (int lane = 0; lane < lanes_; ++lane) rest(lane);
   for (int i = 0; i < refining_iterations; ++i) {
-    batch_.kernel_->iterate(structure, pack());
-    if (!(positive_[0] > 0 && size_[0] <= refining_step))
+    batch_.kernel_->iterate(structure, pack_.lanes());
+    if (!(pack_.positive(0) && pack_.size(0) <= refining_step))
       throw UsageError("batch: the frames given are not a stable equilibrium of the nominal problem");
   }
-  for (std::size_t i = 0; i < frames.size(); ++i) frames[i] = frames_[i * lanes_];
-  for (std::size_t i = 0; i < wrenches.size(); ++i) wrenches[i] = wrenches_[i * lanes_];
+  for (std::size_t i = 0; i < frames.size(); ++i) frames[i] = pack_.frame_number(0, static_cast<int>(i));
+  for (std::size_t i = 0; i < wrenches.size(); ++i) wrenches[i] = pack_.wrench_number(0, static_cast<int>(i));
 }
 
 void BatchWorker::run() {
   int busy = 0;
   for (int lane = 0; lane < lanes_; ++lane) busy += take_outcome(lane);
   const BatchStructure structure = layout_.structure();
-  const BatchLanes lanes = pack();
+  const BatchLanes lanes = pack_.lanes();
   while (busy > 0) {
     if (const auto stop = work_->context.stop()) break;
     batch_.kernel_->iterate(structure, lanes);
@@ -127,6 +97,11 @@ void BatchWorker::run() {
       busy += state_[lane].outcome >= 0;
     }
   }
+}
+
+/// After a step of this size the actual wrenches are too false for the fourth-order terms.
+bool BatchWorker::rough(double size) const {
+  return size > rough_step || 0.5 * size * size * layout_.stretch_stiffness() > rough_stretch;
 }
 
 /// After a full step of this size: is what is left below the tolerance? As in Newton's own test.
@@ -142,9 +117,9 @@ bool BatchWorker::settled(Lane& lane, double size) const {
 void BatchWorker::judge(int index) {
   Lane& lane = state_[index];
   ++lane.iterations;
-  const double size = size_[index];
-  const bool sound = positive_[index] > 0 && size <= largest_step;
-  if (sound && deferred_[index] == 0 && settled(lane, size)) {
+  const double size = pack_.size(index);
+  const bool sound = pack_.positive(index) && size <= largest_step;
+  if (sound && !pack_.deferred(index) && settled(lane, size)) {
     keep(index);
     take_outcome(index);
     return;
@@ -156,8 +131,7 @@ void BatchWorker::judge(int index) {
     take_outcome(index);
     return;
   }
-  const bool rough = size > rough_step || 0.5 * size * size * layout_.stretch_stiffness() > rough_stretch;
-  deferred_[index] = rough ? 1 : 0;
+  pack_.defer(index, rough(size));
   lane.previous_size = size;
 }
 
@@ -175,15 +149,15 @@ void BatchWorker::write_frames(const double* frames, const double* parameters, i
 
 void BatchWorker::keep(int index) {
   const Lane& lane = state_[index];
-  work_->results.outcomes_[lane.outcome] = {Status::solved, lane.iterations, size_[index], false};
-  write_frames(frames_.get(), parameters_.get(), lanes_, index, work_->results.frames_of(lane.outcome));
+  work_->results.outcomes_[lane.outcome] = {Status::solved, lane.iterations, pack_.size(index), false};
+  write_frames(pack_.frames(), pack_.parameters(), lanes_, index, work_->results.frames_of(lane.outcome));
   double* out = work_->results.reactions_of(lane.outcome);
   for (int k = 0; k < layout_.rods(); ++k)
     for (int h = 0; h < work_->results.holds(k); ++h, out += 6) {
       const int node = layout_.vertex(k, layout_.hold_vertex(k, h)).node;
       const int held = layout_.node(node).held_index;
-      auto number = [&](int i) { return reactions_[(6 * held + i) * lanes_ + index]; };
-      const Vec3 moment = frame_at(frames_.get(), 7 * node, lanes_, index).rotation * Vec3(number(3), number(4), number(5));
+      auto number = [&](int i) { return pack_.reaction_number(index, 6 * held + i); };
+      const Vec3 moment = frame_at(pack_.frames(), 7 * node, lanes_, index).rotation * Vec3(number(3), number(4), number(5));
       const Hold& hold = batch_.nominal_.rods[k].holds[h];
       for (int i = 0; i < 3; ++i) {
         out[i] = hold.position ? number(i) : 0;

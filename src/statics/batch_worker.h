@@ -2,11 +2,10 @@
 #pragma once
 
 #include <atomic>
-#include <cstdlib>
-#include <memory>
 #include <mutex>
 
 #include "statics/batch.h"
+#include "statics/batch_pack.h"
 
 namespace tendril {
 
@@ -39,30 +38,23 @@ class BatchWorker {
     int not_shrinking = 0;
     double previous_size = 0, smallest_size = 0;
   };
-  struct Free {
-    void operator()(double* p) const { std::free(p); }
-  };
-  using Array = std::unique_ptr<double[], Free>;
-  Array array(std::size_t numbers_a_lane) const;
-
-  BatchLanes pack() const;
   bool take_outcome(int lane);
   void rest(int lane);
   void judge(int lane);
+  bool rough(double size) const;
   bool settled(Lane& lane, double size) const;
   void keep(int lane);
   void write_frames(const double* frames, const double* parameters, int stride, int lane, double* out) const;
   void solve_scalar(int outcome, int iterations);
-  void spread(const std::vector<double>& numbers, double* to, int lane) const;
 
   const Batch& batch_;
   const BatchLayout& layout_;
   const Work* work_ = nullptr;
   const int lanes_;
   SystemProblem problem_;
-  std::vector<double> numbers_;
+  std::vector<double> numbers_, first_frames_, first_wrenches_, scratch_;
   std::vector<Lane> state_;
-  Array parameters_, deferred_, frames_, wrenches_, reactions_, size_, positive_, scratch_;
+  BatchPack pack_;
   bool stopped_ = false;
 };
 
