@@ -15,7 +15,7 @@ namespace {
 const SystemProblem& checked(const SystemProblem& problem, const SolveOptions& options) {
   if (const std::string why = Batch::why_not(problem, options); !why.empty())
     throw UsageError("batch: this problem cannot be solved in batches: " + why);
-  for (const RodProblem& rod : problem.rods) rod.rod.check();
+  problem.check();
   return problem;
 }
 
@@ -42,7 +42,7 @@ void BatchResults::resize(int outcomes, const SystemProblem& nominal, const Batc
   }
   branches_ = static_cast<int>(nominal.branches.size());
   frame_numbers_ = 7 * (first_vertex_.back() + branches_);
-  reaction_numbers_ = 6 * first_hold_.back();
+  reaction_numbers_ = 6 * (first_hold_.back() + branches_);
   outcomes_.assign(outcomes, {});
   frames_.resize(static_cast<std::size_t>(outcomes) * frame_numbers_);
   reactions_.resize(static_cast<std::size_t>(outcomes) * reaction_numbers_);
@@ -60,10 +60,17 @@ Frame BatchResults::branch(int outcome, int branch) const {
   return frame_of(&frames_[static_cast<std::size_t>(outcome) * frame_numbers_ + 7 * (first_vertex_.back() + branch)]);
 }
 
-BatchResults::Support BatchResults::reaction(int outcome, int rod, int hold) const {
-  const double* n =
-      &reactions_[static_cast<std::size_t>(outcome) * reaction_numbers_ + 6 * (first_hold_[rod] + hold)];
+BatchResults::Support BatchResults::support(int outcome, int index) const {
+  const double* n = &reactions_[static_cast<std::size_t>(outcome) * reaction_numbers_ + 6 * index];
   return {{n[0], n[1], n[2]}, {n[3], n[4], n[5]}};
+}
+
+BatchResults::Support BatchResults::reaction(int outcome, int rod, int hold) const {
+  return support(outcome, first_hold_[rod] + hold);
+}
+
+BatchResults::Support BatchResults::branch_support(int outcome, int branch) const {
+  return support(outcome, first_hold_.back() + branch);
 }
 
 std::string BatchResults::message(int outcome) const {
@@ -93,8 +100,12 @@ Batch::Batch(const SystemProblem& nominal, const Start& start, const SolveOption
 }
 
 void Batch::begin(const Start& start) {
+  if (start.vertices.size() != nominal_.rods.size() || start.branches.size() != nominal_.branches.size())
+    throw UsageError("batch: the nominal equilibrium has " + std::to_string(start.vertices.size()) + " rods and " +
+                     std::to_string(start.branches.size()) + " branch points, expected " +
+                     std::to_string(nominal_.rods.size()) + " and " + std::to_string(nominal_.branches.size()));
   for (int k = 0; k < layout_.rods(); ++k)
-    if (static_cast<int>(start.vertices.at(k).size()) != layout_.vertices(k))
+    if (static_cast<int>(start.vertices[k].size()) != layout_.vertices(k))
       throw UsageError("batch: the nominal equilibrium of rod " + std::to_string(k + 1) + " has " +
                        std::to_string(start.vertices[k].size()) + " vertices, expected " +
                        std::to_string(layout_.vertices(k)));
@@ -103,7 +114,37 @@ void Batch::begin(const Start& start) {
   frames_ = layout_.node_frames(start.vertices, start.branches);
   // At an equilibrium an iteration changes nothing but the wrenches, which become the actual ones.
   BatchWorker(*this).refine(frames_, wrenches_);
+  for (int k = 0; k < layout_.rods(); ++k) {
+    Equilibrium rod;
+    rod.s = layout_.arc_lengths(k, parameters_.data());
+    shares_.push_back(rod.s);
+    for (double& share : shares_.back()) share /= rod.s.back();
+    for (const Frame& frame : start.vertices[k]) {
+      rod.points.push_back(frame.at);
+      rod.rotations.push_back(frame.rotation);
+    }
+    equilibrium_.rods.push_back(rod);
+  }
+  equilibrium_.branches = start.branches;
   predictor_ = BatchPredictor(layout_, *kernel_, parameters_, frames_, wrenches_);
+}
+
+Batch::Start Batch::predicted(const SystemProblem& outcome) const {
+  std::vector<double> numbers(layout_.parameter_count()), frames = frames_, wrenches, scratch;
+  if (layout_.read(outcome, numbers.data())) predictor_.predict(numbers, frames, wrenches, scratch);
+  else numbers = parameters_;
+  Start start;
+  for (int k = 0; k < layout_.rods(); ++k) {
+    start.vertices.emplace_back();
+    for (int v = 0; v < layout_.vertices(k); ++v) {
+      const BatchLayout::Vertex vertex = layout_.vertex(k, v);
+      const Frame node = frame_of(&frames[7 * vertex.node]);
+      start.vertices.back().push_back(vertex.joint < 0 ? node : node * frame_of(&numbers[vertex.joint]));
+    }
+  }
+  for (std::size_t b = 0; b < nominal_.branches.size(); ++b)
+    start.branches.push_back(frame_of(&frames[7 * layout_.branch_node(static_cast<int>(b))]));
+  return start;
 }
 
 // ---------------------------------------------------------------- outcomes

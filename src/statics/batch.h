@@ -50,6 +50,8 @@ class BatchResults {
     Vec3 force, moment;
   };
   Support reaction(int outcome, int rod, int hold) const;
+  /// What holds a branch point, about its place; zero where it is free.
+  Support branch_support(int outcome, int branch) const;
   /// Why an outcome is not solved; empty for those that are.
   std::string message(int outcome) const;
 
@@ -57,6 +59,7 @@ class BatchResults {
   friend class Batch;
   friend class BatchWorker;
   void resize(int outcomes, const SystemProblem& nominal, const BatchLayout& layout);
+  Support support(int outcome, int index) const;
   double* frames_of(int outcome) { return &frames_[static_cast<std::size_t>(outcome) * frame_numbers_]; }
   double* reactions_of(int outcome) { return &reactions_[static_cast<std::size_t>(outcome) * reaction_numbers_]; }
 
@@ -65,7 +68,7 @@ class BatchResults {
   int branches_ = 0;
   int frame_numbers_ = 0, reaction_numbers_ = 0;  ///< by outcome
   std::vector<double> frames_;                    ///< rods' vertices, then branch points
-  std::vector<double> reactions_;                 ///< by hold: force, moment
+  std::vector<double> reactions_;                 ///< by hold, then by branch point: force, moment
   std::map<int, std::string> messages_;
 };
 
@@ -96,6 +99,10 @@ class Batch {
   void solve(int outcomes, const Fill& fill, BatchResults& results, const RunContext& context = {}) const;
   void solve(std::span<const SystemProblem> outcomes, BatchResults& results, const RunContext& context = {}) const;
 
+  /// Where an outcome will be to first order: nominal equilibrium plus derivatives times changes. The nominal equilibrium
+  /// itself for an outcome of another structure, or one so far off that first order means nothing.
+  Start predicted(const SystemProblem& outcome) const;
+
   /// A kernel other than the fastest one: for tests and benchmarks.
   void use(const BatchKernel& kernel) { kernel_ = &kernel; }
   const BatchKernel& kernel() const { return *kernel_; }
@@ -109,6 +116,8 @@ class Batch {
   BatchLayout layout_;
   const BatchKernel* kernel_;
   std::vector<double> parameters_, frames_, wrenches_;  ///< of the nominal equilibrium
+  SystemEquilibrium equilibrium_;                       ///< its shapes alone: where the scalar solver starts
+  std::vector<std::vector<double>> shares_;             ///< its vertices' arc lengths over the length, by rod
   BatchPredictor predictor_;
 };
 

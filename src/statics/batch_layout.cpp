@@ -94,7 +94,6 @@ bool has_loops(const SystemProblem& system) {
 
 std::string BatchLayout::why_not(const SystemProblem& problem, const SolveOptions& options) {
   if (options.element != Element::se3) return "batches use the SE(3) element";
-  if (problem.rods.size() != 1 || !problem.branches.empty()) return "it has several rods";
   if (!options.stable_only) return "batches look for stable equilibria only";
   for (std::size_t k = 0; k < problem.rods.size(); ++k)
     if (std::string why = why_not_rod(problem, static_cast<int>(k)); !why.empty()) return why;
@@ -119,6 +118,11 @@ BatchLayout::BatchLayout(const SystemProblem& nominal) : nominal_(nominal) {
   }
   plan_holds(nominal);
   plan_segments(nominal);
+  for (const BatchNode& node : nodes_)
+    if (node.held) unit_quaternions_.push_back(node.target + 3);
+  for (const RodPlan& plan : rods_)
+    for (const Vertex& vertex : plan.vertices)
+      if (vertex.joint >= 0) unit_quaternions_.push_back(vertex.joint + 3);
 }
 
 void BatchLayout::plan_rod(const SystemProblem& system, int rod) {
@@ -479,6 +483,10 @@ bool BatchLayout::read(const SystemProblem& problem, double* parameters) const {
   for (int k = 0; k < rods(); ++k)
     if (!read_rod(problem, k, parameters, places)) return false;
   read_holds(problem, parameters);
+  for (const int offset : unit_quaternions_) {
+    const double* q = parameters + offset;
+    if (!(std::abs(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3] - 1) < 1e-9)) return false;
+  }
   double finite = 0;
   for (int i = 0; i < parameters_; ++i) finite += 0 * parameters[i];
   return finite == 0;

@@ -87,6 +87,7 @@ class BatchLayout {
   std::vector<BatchNode> nodes_;
   std::vector<BatchSegment> segments_;
   std::vector<int> roots_, root_slots_;
+  std::vector<int> unit_quaternions_;  ///< offsets
   int parameters_ = 0, held_ = 0, slots_ = 0;
   double length_ = 0, stretch_stiffness_ = 0;
 };

@@ -32,6 +32,10 @@ class BatchPack {
   void set(int lane, const std::vector<double>& parameters, const std::vector<double>& frames,
            const std::vector<double>& wrenches, bool deferred) {
     spread(parameters, parameters_, lane);
+    begin(lane, frames, wrenches, deferred);
+  }
+  /// The same numbers from another state.
+  void begin(int lane, const std::vector<double>& frames, const std::vector<double>& wrenches, bool deferred) {
     spread(frames, frames_, lane);
     spread(wrenches, wrenches_, lane);
     defer(lane, deferred);

@@ -25,7 +25,7 @@ void turn(double* q, const double* theta) {
   const double cosine = 1 - u / 2 * (1 - u / 12 * (1 - u / 30 * (1 - u / 56)));
   const Quat by(cosine, 0.5 * sine * theta[0], 0.5 * sine * theta[1], 0.5 * sine * theta[2]);
   Quat turned = quaternion(q) * by;
-  turned.coeffs() /= std::sqrt(turned.squaredNorm());
+  turned.coeffs() *= 1.5 - 0.5 * turned.squaredNorm();
   put(turned, q);
 }
 

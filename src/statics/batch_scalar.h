@@ -14,10 +14,15 @@ struct ScalarAnswer {
   double last_step = 0;
   std::string message;  ///< why it is not solved
   Batch::Start at;      ///< empty for a problem that makes no sense
-  std::vector<BatchResults::Support> reactions;  ///< by rod and hold
+  std::vector<std::vector<BatchResults::Support>> holds;  ///< by rod and hold
+  std::vector<BatchResults::Support> branches;
 };
 
-/// Never throws: a problem that makes no sense has stalled, and the message says why.
-ScalarAnswer solve_scalar(const SystemProblem& problem, const SolveOptions& options, const RunContext& context);
+/// Never throws: a problem that makes no sense has stalled, and the message says why. `from`: null, or an equilibrium to
+/// start from. `shares`: null, or the arc lengths over the length of the vertices asked for, by rod: an outcome's own mesh
+/// may differ from the nominal one where holds have moved along the rod.
+ScalarAnswer solve_scalar(const SystemProblem& problem, const SolveOptions& options, const RunContext& context,
+                          const SystemEquilibrium* from = nullptr,
+                          const std::vector<std::vector<double>>* shares = nullptr);
 
 }  // namespace tendril

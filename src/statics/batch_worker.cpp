@@ -40,6 +40,7 @@ BatchWorker::BatchWorker(const Batch& batch)
       problem_(batch.nominal_),
       numbers_(layout_.parameter_count()),
       state_(lanes_),
+      no_wrenches_(batch.wrenches_.size(), 0.0),
       pack_(layout_, *batch.kernel_) {}
 
 /// An idle lane iterates at the nominal equilibrium, where nothing can go wrong.
@@ -64,7 +65,7 @@ bool BatchWorker::take_outcome(int lane) {
     }
     const double size = batch_.predictor_.predict(numbers_, first_frames_, first_wrenches_, scratch_);
     pack_.set(lane, numbers_, first_frames_, first_wrenches_, rough(size));
-    state_[lane] = {outcome, 0, 0, INFINITY, settled_step};
+    state_[lane] = {outcome, 0, most_iterations, 0, INFINITY, settled_step, false};
     return true;
   }
   rest(lane);
@@ -114,6 +115,17 @@ bool BatchWorker::settled(Lane& lane, double size) const {
   return std::min(size, left) < batch_.options_.tolerance || lane.not_shrinking == settled_rounds;
 }
 
+/// A second attempt as from a first guess: nominal shape, no stress in the geometric terms, hence a positive matrix.
+void BatchWorker::begin_again(int index) {
+  Lane& lane = state_[index];
+  pack_.begin(index, batch_.frames_, no_wrenches_, true);
+  lane.limit = lane.iterations + most_iterations;
+  lane.not_shrinking = 0;
+  lane.previous_size = INFINITY;
+  lane.smallest_size = settled_step;
+  lane.again = true;
+}
+
 void BatchWorker::judge(int index) {
   Lane& lane = state_[index];
   ++lane.iterations;
@@ -124,7 +136,11 @@ void BatchWorker::judge(int index) {
     take_outcome(index);
     return;
   }
-  if (!sound || lane.iterations >= most_iterations) {
+  if (!sound || lane.iterations >= lane.limit) {
+    if (!lane.again) {
+      begin_again(index);
+      return;
+    }
     const Lane failed = lane;
     rest(index);
     solve_scalar(failed.outcome, failed.iterations);
@@ -152,38 +168,56 @@ void BatchWorker::keep(int index) {
   work_->results.outcomes_[lane.outcome] = {Status::solved, lane.iterations, pack_.size(index), false};
   write_frames(pack_.frames(), pack_.parameters(), lanes_, index, work_->results.frames_of(lane.outcome));
   double* out = work_->results.reactions_of(lane.outcome);
+  auto support = [&](int node, bool position, bool orientation) {
+    const int held = layout_.node(node).held_index;
+    auto number = [&](int i) { return pack_.reaction_number(index, 6 * held + i); };
+    const Vec3 moment = frame_at(pack_.frames(), 7 * node, lanes_, index).rotation *
+                        (orientation ? Vec3(number(3), number(4), number(5)) : Vec3::Zero());
+    for (int i = 0; i < 3; ++i) *out++ = position ? number(i) : 0;
+    for (int i = 0; i < 3; ++i) *out++ = moment[i];
+  };
   for (int k = 0; k < layout_.rods(); ++k)
-    for (int h = 0; h < work_->results.holds(k); ++h, out += 6) {
-      const int node = layout_.vertex(k, layout_.hold_vertex(k, h)).node;
-      const int held = layout_.node(node).held_index;
-      auto number = [&](int i) { return pack_.reaction_number(index, 6 * held + i); };
-      const Vec3 moment = frame_at(pack_.frames(), 7 * node, lanes_, index).rotation * Vec3(number(3), number(4), number(5));
+    for (int h = 0; h < work_->results.holds(k); ++h) {
       const Hold& hold = batch_.nominal_.rods[k].holds[h];
-      for (int i = 0; i < 3; ++i) {
-        out[i] = hold.position ? number(i) : 0;
-        out[3 + i] = hold.orientation ? moment[i] : 0;
-      }
+      support(layout_.vertex(k, layout_.hold_vertex(k, h)).node, hold.position, hold.orientation);
     }
+  for (int b = 0; b < work_->results.branches(); ++b) {
+    const BranchPoint& branch = batch_.nominal_.branches[b];
+    support(layout_.branch_node(b), branch.position, branch.orientation);
+  }
 }
 
-/// The fallback: the outcome's own numbers again, and the scalar solver from the nominal equilibrium, then from scratch.
+/// The fallback: the outcome's own numbers again, and the scalar solver from the nominal equilibrium.
 void BatchWorker::solve_scalar(int outcome, int iterations) {
   work_->fill(outcome, problem_);
-  ScalarAnswer answer = tendril::solve_scalar(problem_, batch_.options_, work_->context);
-  work_->results.outcomes_[outcome] = {answer.status, iterations + answer.iterations, answer.last_step, true};
+  const ScalarAnswer answer = tendril::solve_scalar(problem_, batch_.options_, work_->context, &batch_.equilibrium_,
+                                                    &batch_.shares_);
+  BatchResults& results = work_->results;
+  results.outcomes_[outcome] = {answer.status, iterations + answer.iterations, answer.last_step, true};
   if (!answer.message.empty()) {
     const std::lock_guard lock(work_->guard);
-    work_->results.messages_[outcome] = answer.message;
+    results.messages_[outcome] = answer.message;
   }
-  double* out = work_->results.frames_of(outcome);
-  if (answer.at.vertices.empty()) write_frames(batch_.frames_.data(), batch_.parameters_.data(), 1, 0, out);
-  for (std::size_t k = 0; k < answer.at.vertices.size(); ++k)
-    for (int v = 0; v < layout_.vertices(static_cast<int>(k)); ++v) out = write(answer.at.vertices[k][v], out);
-  for (const Frame& frame : answer.at.branches) out = write(frame, out);
-  out = work_->results.reactions_of(outcome);
-  for (const BatchResults::Support& support : answer.reactions)
-    for (const Vec3& v : {support.force, support.moment})
-      for (int i = 0; i < 3; ++i) *out++ = v[i];
+  double* out = results.frames_of(outcome);
+  if (answer.at.vertices.empty() || answer.at.branches.size() != static_cast<std::size_t>(results.branches())) {
+    write_frames(batch_.frames_.data(), batch_.parameters_.data(), 1, 0, out);
+  } else {
+    for (const std::vector<Frame>& rod : answer.at.vertices)
+      for (const Frame& frame : rod) out = write(frame, out);
+    for (const Frame& frame : answer.at.branches) out = write(frame, out);
+  }
+  // Holds that the outcome does not have exert nothing.
+  out = results.reactions_of(outcome);
+  auto supports = [&out](const std::vector<BatchResults::Support>& own, int count) {
+    for (int i = 0; i < count; ++i) {
+      const bool there = i < static_cast<int>(own.size());
+      for (int j = 0; j < 3; ++j) *out++ = there ? own[i].force[j] : 0;
+      for (int j = 0; j < 3; ++j) *out++ = there ? own[i].moment[j] : 0;
+    }
+  };
+  for (int k = 0; k < results.rods(); ++k)
+    supports(answer.holds.empty() ? std::vector<BatchResults::Support>() : answer.holds[k], results.holds(k));
+  supports(answer.branches, results.branches());
 }
 
 }  // namespace tendril

@@ -34,12 +34,14 @@ class BatchWorker {
   /// How the outcome in one lane stands.
   struct Lane {
     int outcome = -1;
-    int iterations = 0;
+    int iterations = 0, limit = 0;
     int not_shrinking = 0;
     double previous_size = 0, smallest_size = 0;
+    bool again = false;  ///< the second attempt
   };
   bool take_outcome(int lane);
   void rest(int lane);
+  void begin_again(int lane);
   void judge(int lane);
   bool rough(double size) const;
   bool settled(Lane& lane, double size) const;
@@ -54,6 +56,7 @@ class BatchWorker {
   SystemProblem problem_;
   std::vector<double> numbers_, first_frames_, first_wrenches_, scratch_;
   std::vector<Lane> state_;
+  const std::vector<double> no_wrenches_;
   BatchPack pack_;
   bool stopped_ = false;
 };
