@@ -325,6 +325,7 @@ std::vector<BatchLayout::Number> BatchLayout::numbers() const {
       for (int i = 0; interval.rates >= 0 && i < interval.count; ++i) {
         plain(interval.rates + i * BatchBlocks::rates, 3, 1);
         plain(interval.rates + i * BatchBlocks::rates + 3, 3, 1 / length);
+        plain(interval.rates + i * BatchBlocks::rates + 6, 3, 1 / (length * length));
       }
     }
     for (const Vertex& vertex : rods_[k].vertices)
