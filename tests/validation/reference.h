@@ -77,6 +77,18 @@ struct Errors {
 /// `segments` of the equilibrium must be a multiple of 10.
 Errors errors_of(const Reference& reference, const Equilibrium& equilibrium);
 
+/// The harness of three hoses in reference_tree.cpp; stable.
+SystemProblem tree_problem(int segments);
+
+struct TreeErrors {
+  double line = 0, reaction = 0, energy = 0;  ///< as in Errors, the largest of the three rods'; energies of all together
+  double branch = 0;                          ///< place of the branch point, relative to a rod's length
+  double branch_turn = 0;                     ///< rad
+};
+
+/// `segments` of every rod must be a multiple of 10.
+TreeErrors tree_errors(const SystemEquilibrium& found);
+
 /// The three discretisations.
 struct Method {
   const char* name;
@@ -87,5 +99,8 @@ struct Method {
   SolveOptions options(bool error = false) const;
 };
 extern const Method se3, staggered, thesis;
+
+/// The equilibrium that the reference lists: by a cold solve; a few by a start or a motion that leads there.
+Equilibrium solve_reference(const Reference& reference, const Method& method, int segments, bool error = false);
 
 }  // namespace tendril::validation

@@ -1,10 +1,13 @@
 // Prints the error of every reference case over the number of segments, for all three discretisations.
 //   validation_table [part of a case's name]
+//   validation_table report [FILE]     writes the report, by default tests/validation/report.md
 #include <cstdio>
 #include <cstring>
 #include <string>
 
+#include "base/write_file.h"
 #include "validation/reference.h"
+#include "validation/validation_report.h"
 
 using namespace tendril;
 using namespace tendril::validation;
@@ -12,7 +15,7 @@ using namespace tendril::validation;
 namespace {
 
 void print_row(const Reference& reference, const Method& method, int segments) {
-  const Equilibrium e = solve(problem_of(reference, segments), method.options(true));
+  const Equilibrium e = solve_reference(reference, method, segments, true);
   const Errors errors = errors_of(reference, e);
   std::printf("  %-9s %5d  %9.2e %9.2e %9.2e", method.name, segments, errors.line, errors.reaction, errors.energy);
   if (e.error)
@@ -25,6 +28,10 @@ void print_row(const Reference& reference, const Method& method, int segments) {
 
 int main(int count, char** arguments) {
   const char* wanted = count > 1 ? arguments[1] : "";
+  if (std::strcmp(wanted, "report") == 0) {
+    write_file(count > 2 ? arguments[2] : "tests/validation/report.md", validation_report());
+    return 0;
+  }
   std::printf("centre line relative to L, reactions and energies relative to the largest;\n");
   std::printf("estimate: of the centre line's error\n");
   std::printf("  %-9s %5s  %9s %9s %9s  %9s %-7s %5s\n", "method", "N", "line", "reaction", "energy", "estimate", "",
