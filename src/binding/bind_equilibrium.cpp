@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 
+#include "binding/bind_gradient.h"
 #include "binding/examples.h"
 #include "binding/scene_cards.h"
 #include "binding/lua_class.h"
@@ -208,6 +209,25 @@ void bind_equilibrium(lua_State* L) {
                          .example = with_hose("s:obstacle(\"floor\", scene.plane{}, {pose = frame{at = {0, 0, -1}, along = {0, 0, 1}}})\n"
                                                  "print(s:solve{}:clearance{to = \"floor\"} / units.mm)")},
               [](const SceneEquilibrium& e, const Options& o) { return clearance_between(e, o); })
+      .property("parameters", "", "Names of all that eq:gradient can differentiate by", [](const SceneEquilibrium& e) {
+        std::vector<std::string> names;
+        for (const SceneParameter& p : parameters_of(e)) names.push_back(p.name);
+        return names;
+      })
+      .property("measures", "", "Names of the measures that eq:gradient knows", [](const SceneEquilibrium& e) {
+        std::vector<std::string> names;
+        for (const SceneMeasure& m : measures_of(e)) names.push_back(m.name);
+        return names;
+      })
+      .method("gradient", {.takes = {"measure", "parameters"},
+                           .does = "Exact first derivatives of a measure by parameters, in SI units. The measure: a name (eq.measures), a "
+                                   "table {rod =, what =, at =, along =}, or a function of an equilibrium (then by differences). The "
+                                   "parameters: names (eq.parameters), or what several begin with: \"hose.to\", \"gravity\".",
+                           .example = with_equilibrium("local g = eq:gradient(\"hose.min_bend_radius\", {\"hose.length\", \"hose.to.at\", \"gravity.z\"})\n"
+                                                       "print(g, g[\"hose.length\"])")},
+              [](lua_State* L, Eq e, const MeasureArgument& measure, const std::vector<std::string>& parameters) {
+                return gradient_of(L, e, measure, parameters);
+              })
       .tostring(describe_equilibrium);
 }
 

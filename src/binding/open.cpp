@@ -13,6 +13,7 @@ void open_tendril(lua_State* L) {
   bind_curve(L);
   bind_scene(L);
   bind_equilibrium(L);
+  bind_gradient(L);
   bind_view(L);
   bind_study(L);
   bind_help(L);

@@ -16,6 +16,7 @@ void bind_rod(lua_State* L);
 void bind_curve(lua_State* L);
 void bind_scene(lua_State* L);
 void bind_equilibrium(lua_State* L);
+void bind_gradient(lua_State* L);
 void bind_view(lua_State* L);
 void bind_study(lua_State* L);
 void bind_help(lua_State* L);

@@ -9,6 +9,7 @@
 #include "scene/accuracy.h"
 #include "scene/explain.h"
 #include "scene/scene.h"
+#include "scene/scene_gradient.h"
 #include "view/chart.h"
 
 namespace tendril::lua {
@@ -68,6 +69,7 @@ template <> inline constexpr const char* class_name<Energy> = "energy";
 template <> inline constexpr const char* class_name<ClearanceValue> = "clearance";
 template <> inline constexpr const char* class_name<ErrorValue> = "error_estimate";
 template <> inline constexpr const char* class_name<ContactHandle> = "contact";
+template <> inline constexpr const char* class_name<SceneGradient> = "gradient";
 template <> inline constexpr const char* class_name<Explanation> = "explanation";
 template <> inline constexpr const char* class_name<ExplainedItem> = "explained_item";
 template <> inline constexpr const char* class_name<View> = "view";

@@ -39,17 +39,6 @@ Vec6 stiffer_by_unit(const Section& s, std::initializer_list<int> which) {
   return change;
 }
 
-/// Young's modulus of a round section; refuses one whose stiffnesses are not those of its diameters.
-double modulus_of(const Section& s, const char* wanted) {
-  const double o2 = s.outer * s.outer, i2 = s.inner * s.inner;
-  const double young = s.EA / (units::pi / 4 * (o2 - i2));
-  const double bend = young * units::pi / 64 * (o2 * o2 - i2 * i2);
-  if (std::abs(s.EI1 - bend) > 1e-6 * bend || std::abs(s.EI2 - bend) > 1e-6 * bend)
-    refuse(std::string(wanted) + " belongs to a round section of one material; this one's stiffnesses are given by "
-           "themselves, ask for EA, EI, GJ or the common factor");
-  return young;
-}
-
 /// A diameter: areas go with the square, second moments with the fourth power.
 SegmentChange wider(const Section& s, double diameter, double sign) {
   const double o2 = s.outer * s.outer, i2 = s.inner * s.inner;
@@ -72,16 +61,16 @@ SegmentChange change_of(const Section& s, Kind kind) {
     case Kind::EI: change.flexibility = stiffer_by_unit(s, {3, 4}); break;
     case Kind::GJ: change.flexibility = stiffer_by_unit(s, {5}); break;
     case Kind::stiffness: change.flexibility = stiffer(s, {0, 1, 2, 3, 4, 5}); break;
-    case Kind::young: change.flexibility = stiffer(s, {0, 1, 2, 3, 4, 5}) / modulus_of(s, "young"); break;
+    case Kind::young: change.flexibility = stiffer(s, {0, 1, 2, 3, 4, 5}) / young_of(s, "young"); break;
     case Kind::mass: change.mass = 1; break;
     case Kind::density: change.mass = s.mass; break;
     case Kind::outer:
-      modulus_of(s, "outer");
+      young_of(s, "outer");
       change = wider(s, s.outer, 1);
       change.radius = 0.5;
       break;
     case Kind::inner:
-      modulus_of(s, "inner");
+      young_of(s, "inner");
       change = wider(s, s.inner, -1);
       break;
     default: break;
@@ -166,6 +155,19 @@ void add_joint(const Parameter& p, const RodNetwork& network, ParameterEffect& o
 }
 
 }  // namespace
+
+bool is_round(const Section& s) {
+  const double o2 = s.outer * s.outer, i2 = s.inner * s.inner;
+  const double bend = s.EA * (o2 + i2) / 16;
+  return std::abs(s.EI1 - bend) <= 1e-6 * bend && std::abs(s.EI2 - bend) <= 1e-6 * bend;
+}
+
+double young_of(const Section& s, const char* wanted) {
+  if (!is_round(s))
+    refuse(std::string(wanted) + " belongs to a round section of one material; this one's stiffnesses are given by "
+           "themselves, ask for EA, EI, GJ or the common factor");
+  return s.EA / (units::pi / 4 * (s.outer * s.outer - s.inner * s.inner));
+}
 
 const char* unit_of(Kind kind) {
   switch (kind) {

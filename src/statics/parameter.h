@@ -74,6 +74,19 @@ struct ParameterEffect {
 /// modulus of a section that is not round and of one material.
 ParameterEffect effect_of(const Parameter& parameter, const RodNetwork& network);
 
+/// The problem with the parameter grown by `by` (in its unit): what effect_of() is the first order of. Throws as that does.
+SystemProblem changed(const SystemProblem& problem, const Parameter& parameter, double by);
+
+/// True when the stiffnesses are those of the diameters and one material.
+bool is_round(const Section& section);
+
+/// Young's modulus (Pa) of a round section. Throws UsageError naming `wanted` for one whose stiffnesses are not those of its
+/// diameters.
+double young_of(const Section& section, const char* wanted);
+
+/// A step of the parameter that changes the problem little, but well above rounding.
+double small_step(const SystemProblem& problem, const Parameter& parameter);
+
 /// The vertices of a rod's mesh that a change of arc lengths moves as a whole, rising; the vertices between two of them
 /// keep their share of the way.
 std::vector<int> break_vertices(const RodSystem& system);

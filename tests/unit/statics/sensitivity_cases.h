@@ -23,9 +23,6 @@ std::string name_of(const Parameter& parameter);
 /// A step that changes the problem noticeably, without leaving the linear range far behind.
 double step_of(const Parameter& parameter, const SystemProblem& problem);
 
-/// The problem with the parameter grown by `by`.
-SystemProblem changed(const SystemProblem& problem, const Parameter& parameter, double by);
-
 /// Every kind of measure, at random places and in random directions.
 std::vector<Measure> measures_of(const SystemProblem& problem, std::mt19937& random);
 std::string name_of(const Measure& measure);
