@@ -69,8 +69,7 @@ std::string describe_gradient(const SceneGradient& g) {
   std::vector<std::vector<std::string>> rows;
   for (const SceneGradient::Entry& e : g.entries)
     rows.push_back({e.parameter, std::isfinite(e.derivative) ? plain_number(e.derivative) : "unknown",
-                    g.unit.empty() && g.measure == "function" ? (e.unit.empty() ? "" : "per " + e.unit)
-                                                              : SceneGradient::unit_of(g.unit, e.unit)});
+                    SceneGradient::unit_of(g.unit, e.unit)});
   return text + "\n" + table_text({"by", "derivative", "unit"}, rows);
 }
 

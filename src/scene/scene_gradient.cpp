@@ -42,7 +42,7 @@ SceneSensitivity::System& SceneSensitivity::system(int k, const RunContext& cont
     const Equilibrium& rod = equilibrium_.rods[solved.rods[i]].equilibrium;
     for (const Hold& hold : problem.holds)
       if (hold.slide)
-        throw UsageError("gradient: rod '" + equilibrium_.rods[solved.rods[i]].name +
+        throw UsageError("equilibrium:gradient: rod '" + equilibrium_.rods[solved.rods[i]].name +
                          "' slides through a clip; sensitivities are for rods held at given places");
     segments.push_back(problem.rod.segments);
     touches = touches || problem.surroundings;
@@ -54,7 +54,7 @@ SceneSensitivity::System& SceneSensitivity::system(int k, const RunContext& cont
   auto system = std::make_unique<System>(solved.problem, equilibrium_.rods[solved.rods.front()].options, segments);
   for (int i = 0; i < system->network.rods(); ++i)
     if (static_cast<int>(frames[i].size()) != system->network.rod(i).mesh().vertices())
-      throw UsageError("gradient: '" + equilibrium_.rods[solved.rods[i]].name + "' was solved on another mesh than it asks for");
+      throw UsageError("equilibrium:gradient: '" + equilibrium_.rods[solved.rods[i]].name + "' was solved on another mesh than it asks for");
   system->state = system->network.state_from(frames, branches);
   SolveOptions options = equilibrium_.rods[solved.rods.front()].options;
   options.tolerance = std::min(options.tolerance, 1e-10);

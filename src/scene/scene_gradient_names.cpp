@@ -198,7 +198,7 @@ std::vector<SceneParameter> named_parameters(const SceneEquilibrium& eq, const s
     const std::size_t before = out.size();
     for (const SceneParameter& p : all)
       if (p.name == name || (p.name.rfind(name + ".", 0) == 0 && belongs_to_group(eq, p))) out.push_back(p);
-    if (out.size() == before) throw UsageError("gradient: unknown parameter " + unknown(name, names_in(all)));
+    if (out.size() == before) throw UsageError("equilibrium:gradient: unknown parameter " + unknown(name, names_in(all)));
   }
   return out;
 }
@@ -209,7 +209,7 @@ SceneMeasure named_measure(const SceneEquilibrium& eq, const std::string& name) 
     if (m.name != name) continue;
     return m.measure.what == What::gap ? clearance_measure(eq, name.substr(0, name.rfind('.'))) : m;
   }
-  throw UsageError("gradient: unknown measure " + unknown(name, names_in(all)));
+  throw UsageError("equilibrium:gradient: unknown measure " + unknown(name, names_in(all)));
 }
 
 std::pair<int, int> place_of_rod(const SceneEquilibrium& eq, const std::string& name) {
@@ -217,13 +217,13 @@ std::pair<int, int> place_of_rod(const SceneEquilibrium& eq, const std::string& 
   for (int k = 0; k < static_cast<int>(eq.systems.size()); ++k)
     for (int i = 0; i < static_cast<int>(eq.systems[k].rods.size()); ++i)
       if (eq.systems[k].rods[i] == rod) return {k, i};
-  throw UsageError("gradient: rod '" + name + "' belongs to no solved system");
+  throw UsageError("equilibrium:gradient: rod '" + name + "' belongs to no solved system");
 }
 
 SceneMeasure clearance_measure(const SceneEquilibrium& eq, const std::string& rod, int to) {
   const auto [system, index] = place_of_rod(eq, rod);
   const Clearance gap = eq.clearance(eq.rod(rod), to);
-  if (gap.obstacle < 0) throw UsageError("gradient: there is no obstacle near '" + rod + "', so its clearance has no derivatives");
+  if (gap.obstacle < 0) throw UsageError("equilibrium:gradient: there is no obstacle near '" + rod + "', so its clearance has no derivatives");
   SceneMeasure out{rod + ".clearance", system, {}};
   out.measure.what = What::gap;
   out.measure.rod = index;
