@@ -318,8 +318,10 @@ function solved_rod_methods:at(s) end
 ---@field energy energy By term (J)
 ---@field error error_estimate? Estimated discretisation error; nil unless solved with error = true (m)
 ---@field iterations integer Newton steps, all rods
+---@field measures (string)[] Names of the measures that eq:gradient knows
 ---@field message string What there is to say about it
 ---@field ok boolean Every rod is solved
+---@field parameters (string)[] Names of all that eq:gradient can differentiate by
 ---@field residual number Largest unbalanced force, or moment over length (N)
 ---@field rods (string)[] Names of the rods
 ---@field seconds number Time to solve, without building trees (s)
@@ -343,6 +345,12 @@ function equilibrium_methods:clearance(options) end
 ---@return vec
 function equilibrium_methods:force(name, where) end
 
+---Exact first derivatives of a measure by parameters, in SI units. The measure: a name (eq.measures), a table {rod =, what =, at =, along =}, or a function of an equilibrium (then by differences). The parameters: names (eq.parameters), or what several begin with: "hose.to", "gravity".
+---@param measure string|function|{rod: string, what: string, at: number|string?, along: vec?, to: string?}
+---@param parameters (string)[]
+---@return gradient
+function equilibrium_methods:gradient(measure, parameters) end
+
 ---Moment (N m, world axes, about the centre line) of the support on the rod at a hold.
 ---@param name string
 ---@param where string|number
@@ -353,6 +361,18 @@ function equilibrium_methods:moment(name, where) end
 ---@param name string
 ---@return solved_rod
 function equilibrium_methods:rod(name) end
+
+---Derivatives of a measure, by parameter: g["hose.length"]
+---@class gradient
+---@field derivatives table<string, number> By name, in SI units
+---@field measure string Its name
+---@field message string Why they do not
+---@field ok boolean The derivatives exist
+---@field parameters (string)[] Names, in the order asked for
+---@field unit string Of the measure
+---@field value number Of the measure, in its SI unit
+---@field [string] any
+local gradient_methods = {}
 
 ---A file that was saved
 ---@class saved_file
