@@ -103,7 +103,7 @@ end)
 
 check.case("in contact", function()
   local t, q = hose.scene()
-  t:obstacle("table", scene.plane {}, {pose = frame {at = {0, 0, 0.75}, along = {0, 0, 1}}})
+  t:obstacle("table", scene.plane {}, {pose = frame {at = {0, 0, 0.74}, along = {0, 0, 1}}})
   local lying = t:solve {}
   check.is_true(#lying.contacts > 0)
   local g = lying:gradient("hose.clearance", {"hose.length", "hose.section.EI"})
