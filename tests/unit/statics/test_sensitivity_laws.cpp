@@ -300,3 +300,37 @@ TEST_CASE("sensitivity: what cannot be asked for", "[sensitivity]") {
   NetworkSolver other({{hose()}, {}}, staggered);
   CHECK_THROWS_WITH(Sensitivity(other.network(), other.starting_state(nullptr)), Catch::Contains("expected the se3 element"));
 }
+
+TEST_CASE("sensitivity: problems with a changed parameter", "[sensitivity]") {
+  const SystemProblem problem{{hose()}, {}};
+  const Material material = Material::from_poisson(5e6, 0.5, 1100);
+  const auto same = [](const Section& a, const Section& b) {
+    CHECK(a.outer == Approx(b.outer));
+    CHECK(a.inner == Approx(b.inner).margin(1e-15));
+    CHECK(a.EA == Approx(b.EA));
+    CHECK(a.GA1 == Approx(b.GA1));
+    CHECK(a.EI2 == Approx(b.EI2));
+    CHECK(a.GJ == Approx(b.GJ));
+    CHECK(a.mass == Approx(b.mass));
+  };
+  const auto section = [&](Kind kind, double by) { return changed(problem, {kind}, by).rods[0].rod.parts[0].section; };
+  same(section(Kind::outer, 1e-3), Section::round(0.017, 0, material));
+  same(section(Kind::inner, 4e-3), Section::round(0.016, 0.004, material));
+  same(section(Kind::young, 1e6), Section::round(0.016, 0, Material::from_poisson(6e6, 0.5, 1100)));
+  const SystemProblem longer = changed(problem, {Kind::length}, 0.3);
+  CHECK(longer.rods[0].rod.length == Approx(1.5));
+  CHECK(longer.rods[0].holds[1].at == Approx(1.5));
+  CHECK(longer.rods[0].rod.parts[0].upto == Approx(1.5));
+  CHECK(changed(problem, {Kind::gravity, 0, 0, 0, 2}, 1).rods[0].gravity.z() == Approx(-8.81));
+  std::mt19937 random(9);
+  const SystemProblem tee = random_tee(random);
+  for (const Parameter& p : parameters_of(tee)) {
+    INFO(name_of(p));
+    CHECK(small_step(tee, p) > 0);
+    CHECK(std::isfinite(small_step(tee, p)));
+  }
+  CHECK_THROWS_WITH(changed(problem, {Kind::hold_place, 0, 7}, 0.1), Catch::Contains("got hold 7, expected one of 2"));
+  CHECK_THROWS_WITH(changed(problem, {Kind::load_force, 0, 0}, 0.1), Catch::Contains("got load 0, expected one of 0"));
+  CHECK_THROWS_WITH(changed(problem, {Kind::joint_place}, 0.1), Catch::Contains("got branch point 0, expected one of 0"));
+  CHECK_THROWS_WITH(changed(problem, {Kind::length, 3}, 0.1), Catch::Contains("got rod 3, expected one of 1"));
+}
