@@ -19,9 +19,8 @@ void Sensitivity::stand_at(const RodState& state) {
   for (int k = 0; k < network_.rods(); ++k) rods_[k].stand_at({state_, network_.first_node(k)});
   network_.assemble(state_, Stress::actual, block_);
   if (contacts_) {
-    contacts_->set_exact(true);
-    contacts_->assemble(state_, Stress::actual, block_);
-    contacts_->set_exact(false);
+    contacts_->stand_at(state_);
+    contacts_->add_to(state_, true, block_);
   }
   gradient_ = block_.gradient;
   if (!network_.problem().branches.empty()) unjoined_ = block_;
