@@ -339,7 +339,10 @@ inline SegmentGradient<T> se3_element(const Se3Segment<T>& s, const Se3Ends<T>& 
   rate.g = x.g;
   rate.d = x.d;
   rate.per_length = filled<T>(1) / s.h;
-  rate.l = x.l;
+#pragma GCC unroll 6
+  for (int i = 0; i < 6; ++i)
+#pragma GCC unroll 6
+    for (int j = 0; j <= i; ++j) rate.l.e[i][j] = x.l.e[i][j];
   detail::M6<T> xi;
   se3_curvature_on_xi(s, x, w, u, xi, rate.reduced);
 

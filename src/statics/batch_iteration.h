@@ -34,7 +34,9 @@ class BatchIteration {
         frames_(reinterpret_cast<T*>(lanes.frames)),
         wrenches_(reinterpret_cast<T*>(lanes.wrenches)),
         reactions_(reinterpret_cast<T*>(lanes.reactions)),
-        deferred_(*reinterpret_cast<const T*>(lanes.deferred)) {
+        deferred_(*reinterpret_cast<const T*>(lanes.deferred)),
+        shift_(*reinterpret_cast<const T*>(lanes.shift)),
+        shifted_(largest_lane(shift_) > 0) {
     char* next = reinterpret_cast<char*>(lanes.scratch);
     auto take = [&next](auto*& array, int count) {
       array = reinterpret_cast<std::remove_reference_t<decltype(array)>>(next);
@@ -58,9 +60,12 @@ class BatchIteration {
     for (int i = 0; i < s_.segment_count; ++i) assemble(i);
     for (int k = 0; k < s_.root_count; ++k) close_root(k);
     for (int i = s_.segment_count - 1; i >= 0; --i) back(i);
-    T largest{};
-    for (int i = 0; i < s_.node_count; ++i) move(i, largest);
-    size = largest;
+    size = step_size();
+    const T one = filled<T>(1), nothing{};
+    share_ = size > filled<T>(s_.largest_step) ? filled<T>(s_.largest_step) / size : one;
+    share_ = (positive_ > nothing) & (size == size) ? share_ : nothing;
+    for (int i = 0; i < s_.segment_count; ++i) predict(i);
+    for (int i = 0; i < s_.node_count; ++i) move(i);
     positive = positive_;
   }
 
@@ -125,15 +130,17 @@ class BatchIteration {
   void back(int index);
   void react(int node, const T* parent);
   void predict(int index);
-  void move(int node, T& largest);
+  T step_size() const;
+  void move(int node);
 
   const tendril::BatchStructure& s_;
   const T* parameters_;
   T* frames_;
   T* wrenches_;
   T* reactions_;
-  const T deferred_;
-  T positive_;
+  const T deferred_, shift_;
+  const bool shifted_;
+  T positive_, share_;  ///< share: of the step that is made
   NodeFactor<T>* factors_;
   Segment* segments_;
   T* steps_;
@@ -291,6 +298,13 @@ template <class T>
     end.force = end.force - vector(parameters_ + segment.end_force);
     end_force = end_force - vector(parameters_ + segment.end_force);
   }
+  if (shifted_) {
+    const T turn = filled<T>(0.5) * shift_ * element.h, way = turn * (0.01 / (s_.length * s_.length));
+    add_to_diagonal(start.rr, way);
+    add_to_diagonal(start.tt, turn);
+    add_to_diagonal(end.rr, way);
+    add_to_diagonal(end.tt, turn);
+  }
   if (segment.start_joint >= 0 || segment.end_joint >= 0)
     join(segment, kept, {start_force, end_force}, start, end, coupling);
 
@@ -368,7 +382,6 @@ void BatchIteration<T>::back(int index) {
   else
     substitute<T>(factors_[segment.child], parent, x);
   if (node.held) react(segment.child, parent);
-  predict(index);
 }
 
 /// The gradient at a held node after the step, by its linearisation.
@@ -403,26 +416,45 @@ void BatchIteration<T>::predict(int index) {
   }
   const Wrench<T> change = kept.rate.change(rb - ra, ta, tb);
   const V3<T> turn = filled<T>(0.5) * (ta + tb);
-  const V3<T> n = turned_back(turn, kept.actual.n + change.n + cross(turn, kept.geometric.n));
-  const V3<T> m = turned_back(turn, kept.actual.m + change.m + cross(turn, kept.geometric.m));
+  const V3<T> back = share_ * turn;
+  const V3<T> n = turned_back(back, kept.actual.n + change.n + cross(turn, kept.geometric.n));
+  const V3<T> m = turned_back(back, kept.actual.m + change.m + cross(turn, kept.geometric.m));
   T* w = wrenches_ + tendril::BatchBlocks::wrench * index;
-  w[0] = n.x;
-  w[1] = n.y;
-  w[2] = n.z;
-  w[3] = m.x;
-  w[4] = m.y;
-  w[5] = m.z;
+  const auto moves = share_ > T{};
+#pragma GCC unroll 3
+  for (int i = 0; i < 3; ++i) {
+    w[i] = moves ? n[i] : w[i];
+    w[3 + i] = moves ? m[i] : w[3 + i];
+  }
+}
+
+template <class T>
+T BatchIteration<T>::step_size() const {
+  T largest{};
+  for (int i = 0; i < s_.node_count; ++i) {
+    const V3<T> dr = vector(steps_ + 6 * i), theta = vector(steps_ + 6 * i + 3);
+    const T turned = dot(theta, theta), moved = dot(dr, dr) * (1 / (s_.length * s_.length));
+    largest = (turned > largest) | (turned != turned) ? turned : largest;
+    largest = (moved > largest) | (moved != moved) ? moved : largest;
+  }
+  T size;
+  for (int i = 0; i < lanes_of<T>; ++i) lane(size, i) = __builtin_sqrt(lane(largest, i));
+  return size;
 }
 
 /// r <- r + dr, R <- R exp(theta); exp by its series, which is exact to rounding up to 1 rad.
 template <class T>
-void BatchIteration<T>::move(int node, T& largest) {
+void BatchIteration<T>::move(int node) {
   const T* x = steps_ + 6 * node;
   T* to = frames_ + 7 * node;
-  const V3<T> dr = vector(x), theta = vector(x + 3);
-  const T turned = dot(theta, theta), moved = dot(dr, dr) * (1 / (s_.length * s_.length));
-  largest = (turned > largest) | (turned != turned) ? turned : largest;
-  largest = (moved > largest) | (moved != moved) ? moved : largest;
+  const auto moves = share_ > T{};
+  V3<T> dr, theta;
+#pragma GCC unroll 3
+  for (int i = 0; i < 3; ++i) {
+    dr[i] = moves ? share_ * x[i] : T{};
+    theta[i] = moves ? share_ * x[3 + i] : T{};
+  }
+  const T turned = dot(theta, theta);
   const T u = filled<T>(0.25) * turned;
   constexpr double sines[7] = {1, -1.0 / 6, 1.0 / 120, -1.0 / 5040, 1.0 / 362880, -1.0 / 39916800, 1.0 / 6227020800};
   constexpr double cosines[7] = {1, -0.5, 1.0 / 24, -1.0 / 720, 1.0 / 40320, -1.0 / 3628800, 1.0 / 479001600};
@@ -454,7 +486,7 @@ void iterate_lanes(const tendril::BatchStructure& structure, const tendril::Batc
   T size, positive;
   iteration.run(size, positive);
   for (int i = 0; i < lanes_of<T>; ++i) {
-    lanes.size[i] = __builtin_sqrt(lane(size, i));
+    lanes.size[i] = lane(size, i);
     lanes.positive[i] = lane(positive, i);
   }
 }

@@ -42,17 +42,19 @@ struct BatchStructure {
   const int* root_slots;
   int root_count;
   double length;          ///< m: moves over this are compared with rotations
+  double largest_step;    ///< rad, and share of the length: longer steps are cut to this
 };
 
 /// One pack of outcomes: arrays of `lanes` doubles each, 64-byte aligned.
 struct BatchLanes {
   double* parameters;
   double* deferred;   ///< 1: the fourth-order correction comes from the predicted wrench; 0: from the actual one
+  double* shift;      ///< N: times a segment's length added to the diagonal of its ends' rotations, 0.01 / length^2 of it to positions
   double* frames;     ///< by node: position, quaternion; moved by the step
   double* wrenches;   ///< by segment: predicted n, m at mid-segment; replaced by what the step leads to
   double* reactions;  ///< by held node: gradient (force in world axes, moment in section axes) that the step leads to
-  double* size;       ///< of the step: the largest of rotation (rad) and move over `length`
-  double* positive;   ///< 1: every pivot was positive; 0: not
+  double* size;       ///< of the whole step: the largest of rotation (rad) and move over `length`
+  double* positive;   ///< 1: every pivot was positive; 0: not, and the lane has stayed where it was
   double* scratch;    ///< scratch_size() numbers a lane
 };
 

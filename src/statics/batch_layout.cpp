@@ -155,6 +155,7 @@ void BatchLayout::plan_rod(const SystemProblem& system, int rod) {
     vertex_of_boundary.push_back(vertex_of_boundary.back() + count);
     const Section& section = problem.rod.section_at(0.5 * (boundaries[b] + boundaries[b - 1]));
     stretch_stiffness_ = std::max(stretch_stiffness_, stretch_stiffness_of(way / count, section));
+    bending_scale_ = std::min(bending_scale_, std::min(section.EI1, section.EI2) / (length * length));
   }
   plan.vertices.assign(vertex_of_boundary.back() + 1, {-1, -1});
   std::size_t place = 2;
@@ -291,7 +292,7 @@ void BatchLayout::order(const std::vector<BatchSegment>& links) {
 
 BatchStructure BatchLayout::structure() const {
   return {segments_.data(),   segment_count(),                   nodes_.data(), node_count(), roots_.data(),
-          root_slots_.data(), static_cast<int>(roots_.size()), length_};
+          root_slots_.data(), static_cast<int>(roots_.size()), length_, 1};
 }
 
 std::vector<double> BatchLayout::node_frames(const std::vector<std::vector<Frame>>& vertices,

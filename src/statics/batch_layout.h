@@ -3,6 +3,7 @@
 // straight into its lane.
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,7 @@ class BatchLayout {
   int segment_count() const { return static_cast<int>(segments_.size()); }
   int held_count() const { return held_; }
   int slot_count() const { return slots_; }
+  double bending_scale() const { return bending_scale_; }          ///< smallest EI / L^2, N
   double stretch_stiffness() const { return stretch_stiffness_; }  ///< h^2 EA/(12 EI), the largest
 
   /// An outcome's numbers, parameter_count() of them. False where its structure differs from the nominal one's or a number
@@ -89,7 +91,7 @@ class BatchLayout {
   std::vector<int> roots_, root_slots_;
   std::vector<int> unit_quaternions_;  ///< offsets
   int parameters_ = 0, held_ = 0, slots_ = 0;
-  double length_ = 0, stretch_stiffness_ = 0;
+  double length_ = 0, stretch_stiffness_ = 0, bending_scale_ = std::numeric_limits<double>::infinity();
 };
 
 }  // namespace tendril

@@ -17,6 +17,7 @@ class BatchPack {
       : count_(kernel.lanes),
         parameters_(array(layout.parameter_count())),
         deferred_(array(1)),
+        shift_(array(1)),
         frames_(array(7 * layout.node_count())),
         wrenches_(array(BatchBlocks::wrench * layout.segment_count())),
         reactions_(array(6 * layout.held_count())),
@@ -25,8 +26,8 @@ class BatchPack {
         scratch_(array(kernel.scratch_size(layout.structure(), layout.held_count(), layout.slot_count()))) {}
 
   BatchLanes lanes() const {
-    return {parameters_.get(), deferred_.get(), frames_.get(),   wrenches_.get(),
-            reactions_.get(),  size_.get(),     positive_.get(), scratch_.get()};
+    return {parameters_.get(), deferred_.get(),  shift_.get(), frames_.get(), wrenches_.get(),
+            reactions_.get(),  size_.get(),      positive_.get(), scratch_.get()};
   }
 
   void set(int lane, const std::vector<double>& parameters, const std::vector<double>& frames,
@@ -39,7 +40,10 @@ class BatchPack {
     spread(frames, frames_, lane);
     spread(wrenches, wrenches_, lane);
     defer(lane, deferred);
+    shift(lane, 0);
   }
+  void shift(int lane, double shift) { shift_[lane] = shift; }
+  double shift(int lane) const { return shift_[lane]; }
   void defer(int lane, bool deferred) { deferred_[lane] = deferred ? 1 : 0; }
   bool deferred(int lane) const { return deferred_[lane] != 0; }
 
@@ -70,7 +74,7 @@ class BatchPack {
   }
 
   int count_;
-  Array parameters_, deferred_, frames_, wrenches_, reactions_, size_, positive_, scratch_;
+  Array parameters_, deferred_, shift_, frames_, wrenches_, reactions_, size_, positive_, scratch_;
 };
 
 }  // namespace tendril

@@ -10,10 +10,9 @@
 namespace tendril {
 namespace {
 
-constexpr int most_iterations = 12;
+constexpr int most_iterations = 20;  // of one attempt
 constexpr int refining_iterations = 4;
 constexpr double refining_step = 1e-2;
-constexpr double largest_step = 1;     // rad, and share of the length: beyond it the scalar solver's damping is needed
 constexpr double rough_step = 0.2;     // after larger steps the actual wrench is too rough for the fourth-order terms,
 constexpr double rough_stretch = 0.5;  // and so it is where the step's second-order stretch makes this much of it
 constexpr double quadratic_regime = 1e-2;
@@ -65,7 +64,7 @@ bool BatchWorker::take_outcome(int lane) {
     }
     const double size = batch_.predictor_.predict(numbers_, first_frames_, first_wrenches_, scratch_);
     pack_.set(lane, numbers_, first_frames_, first_wrenches_, rough(size));
-    state_[lane] = {outcome, 0, most_iterations, 0, INFINITY, settled_step, false};
+    state_[lane] = {outcome, 0, most_iterations, 0, INFINITY, settled_step, 0, false};
     return true;
   }
   rest(lane);
@@ -123,20 +122,34 @@ void BatchWorker::begin_again(int index) {
   lane.not_shrinking = 0;
   lane.previous_size = INFINITY;
   lane.smallest_size = settled_step;
+  lane.last_shift = 0;
   lane.again = true;
+}
+
+/// A pivot was not positive and the lane has not moved: more shift, by the scalar Newton's rule.
+void BatchWorker::raise_shift(int index) {
+  const double shift = pack_.shift(index), least = 0.5 * layout_.bending_scale();
+  pack_.shift(index, shift == 0 ? std::max(least, 0.25 * state_[index].last_shift) : 10 * shift);
+}
+
+/// After a full step.
+void BatchWorker::relax_shift(int index) {
+  const double shift = pack_.shift(index);
+  state_[index].last_shift = shift;
+  pack_.shift(index, 0.25 * shift < 0.5 * layout_.bending_scale() ? 0 : 0.25 * shift);
 }
 
 void BatchWorker::judge(int index) {
   Lane& lane = state_[index];
   ++lane.iterations;
   const double size = pack_.size(index);
-  const bool sound = pack_.positive(index) && size <= largest_step;
-  if (sound && !pack_.deferred(index) && settled(lane, size)) {
+  const bool positive = pack_.positive(index), full = size <= layout_.structure().largest_step;
+  if (positive && full && pack_.shift(index) == 0 && !pack_.deferred(index) && settled(lane, size)) {
     keep(index);
     take_outcome(index);
     return;
   }
-  if (!sound || lane.iterations >= lane.limit) {
+  if (!std::isfinite(size) || lane.iterations >= lane.limit) {
     if (!lane.again) {
       begin_again(index);
       return;
@@ -147,6 +160,11 @@ void BatchWorker::judge(int index) {
     take_outcome(index);
     return;
   }
+  if (!positive) {
+    raise_shift(index);
+    return;
+  }
+  if (full) relax_shift(index);
   pack_.defer(index, rough(size));
   lane.previous_size = size;
 }

@@ -36,12 +36,14 @@ class BatchWorker {
     int outcome = -1;
     int iterations = 0, limit = 0;
     int not_shrinking = 0;
-    double previous_size = 0, smallest_size = 0;
+    double previous_size = 0, smallest_size = 0, last_shift = 0;
     bool again = false;  ///< the second attempt
   };
   bool take_outcome(int lane);
   void rest(int lane);
   void begin_again(int lane);
+  void raise_shift(int lane);
+  void relax_shift(int lane);
   void judge(int lane);
   bool rough(double size) const;
   bool settled(Lane& lane, double size) const;
