@@ -1,9 +1,11 @@
 // Many outcomes of one design at once: equilibria of systems that share their structure and differ in numbers.
 //
-// Every outcome starts from the nominal equilibrium, moved by its first-order change; four or eight of them share the lanes of one SIMD register, by the
-// processor that the program runs on. What an outcome gets depends on neither its neighbours in the lanes, nor the number
-// of threads, nor the order of calls: the same bits always (and the same for AVX2 and AVX-512). An outcome that does not
-// settle within a few iterations is solved by the scalar solver.
+// Every outcome starts from the nominal equilibrium, moved by its first-order change; four or eight of them share the
+// lanes of one SIMD register, by the processor that the program runs on. What an outcome gets depends on neither its
+// neighbours in the lanes, nor the number of threads, nor the order of calls: the same bits always, and the same for AVX2
+// and AVX-512. (A processor or build without fused multiply-add rounds differently.) Lanes take the scalar Newton's shift
+// and shortened steps where they must; an outcome that does not settle within a few tens of iterations, or whose structure
+// is another one, is solved by the scalar solver, and one that makes no sense is reported.
 //
 // Same structure: the same rods, branch points, holds and loads by number and kind, the same numbers of segments and parts.
 // All other numbers may vary: lengths, places along the rods, sections, gravity, frames, forces, shapes.

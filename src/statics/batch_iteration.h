@@ -111,6 +111,7 @@ class BatchIteration {
             {at.q.w * relative.q.w - dot(at.q.v, relative.q.v), at.q.w * relative.q.v + relative.q.w * at.q.v + c}};
   }
 
+  Se3Segment<T> element_of(const tendril::BatchSegment& segment, T& deferred) const;
   void assemble(int index);
   void add_weight(const Se3Segment<T>& segment, const V3<T>& weight, const T& sign, bool slope, const End& at,
                   EndTerms<T>& end, V3<T>& geometric) const;
@@ -250,20 +251,14 @@ template <class T>
   }
 }
 
+/// What a segment is, and how much of its fourth-order correction comes from the predicted wrench.
 template <class T>
-[[gnu::flatten]] void BatchIteration<T>::assemble(int index) {
-  const tendril::BatchSegment& segment = s_.segments[index];
-  const int start_node = segment.reversed ? segment.parent : segment.child;
-  const int end_node = segment.reversed ? segment.child : segment.parent;
-  Segment& kept = segments_[index];
-  const End a = section(start_node, segment.start_joint, kept.start_lever);
-  const End b = section(end_node, segment.end_joint, kept.end_lever);
-
+inline Se3Segment<T> BatchIteration<T>::element_of(const tendril::BatchSegment& segment, T& deferred) const {
   const T* p = parameters_ + segment.stiffness;
   Se3Segment<T> element;
   element.h = p[0];
   const T q = p[0] * p[0] * filled<T>(1.0 / 12);
-  const T deferred = deferred_ * q;
+  deferred = deferred_ * q;
   element.q = q - deferred;
   element.flexibility_v = vector(p + 1);
   element.flexibility_phi = vector(p + 4);
@@ -276,6 +271,20 @@ template <class T>
     element.rate_v = {T{}, T{}, filled<T>(1)};
     element.rate_phi = {T{}, T{}, T{}};
   }
+  return element;
+}
+
+template <class T>
+[[gnu::flatten]] void BatchIteration<T>::assemble(int index) {
+  const tendril::BatchSegment& segment = s_.segments[index];
+  const int start_node = segment.reversed ? segment.parent : segment.child;
+  const int end_node = segment.reversed ? segment.child : segment.parent;
+  Segment& kept = segments_[index];
+  const End a = section(start_node, segment.start_joint, kept.start_lever);
+  const End b = section(end_node, segment.end_joint, kept.end_lever);
+
+  T deferred;
+  const Se3Segment<T> element = element_of(segment, deferred);
   T* w = wrenches_ + tendril::BatchBlocks::wrench * index;
   kept.geometric = {vector(w), vector(w + 3)};
   SegmentHessian<T> h;
@@ -287,7 +296,7 @@ template <class T>
   EndTerms<T> end{gradient.force, gradient.theta_b, h.dd, h.db, h.bb};
   Coupling<T> coupling{-h.dd, -h.db, transposed(h.da), h.ab};
   V3<T> start_force = -h.geometric_force, end_force = h.geometric_force;
-  const V3<T> weight = vector(p + 7);
+  const V3<T> weight = vector(parameters_ + segment.stiffness + 7);
   add_weight(element, weight, filled<T>(-1), segment.start_slope, a, start, start_force);
   add_weight(element, weight, filled<T>(1), segment.end_slope, b, end, end_force);
   if (segment.start_force >= 0) {
