@@ -36,7 +36,7 @@ SceneSensitivity::System& SceneSensitivity::system(int k, const RunContext& cont
   const SolvedSystem& solved = equilibrium_.systems[k];
   std::vector<int> segments;
   std::vector<std::vector<Frame>> frames;
-  bool touches = false;
+  bool touches = false, pressed = false;
   for (std::size_t i = 0; i < solved.rods.size(); ++i) {
     const RodProblem& problem = solved.problem.rods[i];
     const Equilibrium& rod = equilibrium_.rods[solved.rods[i]].equilibrium;
@@ -46,9 +46,13 @@ SceneSensitivity::System& SceneSensitivity::system(int k, const RunContext& cont
                          "' slides through a clip; sensitivities are for rods held at given places");
     segments.push_back(problem.rod.segments);
     touches = touches || problem.surroundings;
+    pressed = pressed || !rod.contacts.empty();
     std::vector<Frame>& own = frames.emplace_back();
     for (std::size_t v = 0; v < rod.points.size(); ++v) own.push_back({rod.points[v], rod.rotations[v]});
   }
+  if (pressed && solved.rods.size() > 1)
+    throw UsageError("equilibrium:gradient: '" + equilibrium_.rods[solved.rods.front()].name +
+                     "' and the rods it is joined to touch obstacles; sensitivities in contact are for rods by themselves");
   std::vector<Frame> branches;
   for (const int b : solved.branches) branches.push_back(equilibrium_.branches[b].frame);
   auto system = std::make_unique<System>(solved.problem, equilibrium_.rods[solved.rods.front()].options, segments);
@@ -58,7 +62,7 @@ SceneSensitivity::System& SceneSensitivity::system(int k, const RunContext& cont
   system->state = system->network.state_from(frames, branches);
   SolveOptions options = equilibrium_.rods[solved.rods.front()].options;
   options.tolerance = std::min(options.tolerance, 1e-10);
-  if (touches) {
+  if (touches && solved.rods.size() == 1) {
     system->contact = std::make_unique<ContactSolver>(system->network, options);
     system->status = system->contact->run(system->state, &equilibrium_.rods[solved.rods.front()].equilibrium, context).newton.status;
   } else {

@@ -1,11 +1,16 @@
 #include "statics/sensitivity.h"
 
 #include <Eigen/LU>
+#include <string>
 
+#include "base/error.h"
 
 namespace tendril {
+
 Sensitivity::Sensitivity(RodNetwork& network, const RodState& state, ContactTerms* contacts)
     : network_(network), contacts_(contacts), ldlt_(network.pattern()) {
+  if (contacts && network.rods() > 1)
+    throw UsageError("sensitivity: got contact of " + std::to_string(network.rods()) + " joined rods, expected a single rod");
   for (int k = 0; k < network.rods(); ++k) {
     rods_.emplace_back(network.rod(k));
     breaks_.push_back(break_vertices(network.rod(k)));

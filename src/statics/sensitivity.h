@@ -9,7 +9,7 @@
 // unknowns: it enters as a lambda that is not zero there. Dead moments make K unsymmetric in 3x3 blocks.
 //
 // K is that of the actual wrenches and the exact curvature of contact, whose law keeps its stiffness and its shifts.
-// Not done: staggered elements, clips that slide.
+// Not done: staggered elements, contact of joined rods. Clips that slide are taken at the places where they stand.
 #pragma once
 
 #include <span>
@@ -27,7 +27,7 @@ namespace tendril {
 class Sensitivity {
  public:
   /// Assembles and factorises at an equilibrium. `contacts`: null without surroundings. Both must outlive this. Throws
-  /// UsageError for rods of staggered elements.
+  /// UsageError for rods of staggered elements and for contact of several rods.
   Sensitivity(RodNetwork& network, const RodState& state, ContactTerms* contacts = nullptr);
   Sensitivity(const Sensitivity&) = delete;  // its rods look at its state
   Sensitivity& operator=(const Sensitivity&) = delete;

@@ -106,3 +106,11 @@ TEST_CASE("scene gradient: what is not solved, slides, or has no obstacle near")
   eq.systems[1].problem.rods[0].holds[0].slide = true;
   CHECK_THROWS_WITH(SceneSensitivity(eq).gradient(named_measure(eq, "alone.length"), {}), Catch::Contains("slides through a clip"));
 }
+
+TEST_CASE("scene gradient: joined rods that touch something are refused, not answered without the contact") {
+  SceneEquilibrium eq = scene_with_branch().solve(exact());
+  REQUIRE(eq.ok());
+  eq.rods[0].equilibrium.contacts.push_back({0.2, Vec3::Zero(), Vec3::UnitZ(), 0, 0});
+  CHECK_THROWS_WITH(SceneSensitivity(eq).gradient(named_measure(eq, "a.length"), {}), Catch::Contains("touch obstacles"));
+  CHECK(SceneSensitivity(eq).gradient(named_measure(eq, "alone.length"), named_parameters(eq, {"alone.length"})).ok);
+}
