@@ -85,7 +85,7 @@ GuardedStep ContactGuard::admit(const VertexShape& shape, std::span<const Vec6> 
 }
 
 void add_blockade_springs(const ContactSet& set, const VertexShape& shape, const std::vector<Blockade>& blockades,
-                          double stiffness, BlockSystem& system) {
+                          double stiffness, BlockView system) {
   for (const Blockade& b : blockades) {
     const ContactPoint& p = set.points()[b.point];
     const double missing = b.normal.dot(set.positions()[b.point]) - (b.plane + 0.5 * p.radius);

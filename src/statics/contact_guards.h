@@ -62,6 +62,6 @@ class ContactGuard {
 /// Pulls each blocked point, by a spring of `stiffness` (N/m) in the linear system, to half its radius above the plane:
 /// what a step that the guards keep cutting short needs to go around instead of on.
 void add_blockade_springs(const ContactSet& set, const VertexShape& shape, const std::vector<Blockade>& blockades,
-                          double stiffness, BlockSystem& system);
+                          double stiffness, BlockView system);
 
 }  // namespace tendril

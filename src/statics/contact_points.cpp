@@ -175,7 +175,7 @@ void add_point_force(const ContactPoint& p, const VertexShape& shape, const Vec3
 }
 
 void add_point_energy(const ContactPoint& p, const VertexShape& shape, const Vec3& gradient, const Mat3& hessian,
-                      const Vec3& geometric, BlockSystem& system) {
+                      const Vec3& geometric, BlockView system) {
   const int a = p.segment, b = a + 1;
   if (p.ra != 0) {
     system.gradient[a].head<3>() += p.ra * gradient;

@@ -69,6 +69,6 @@ void add_point_force(const ContactPoint& point, const VertexShape& shape, const 
 /// Adds an energy E(x) of the point to the system. gradient: dE/dx (N); hessian: d2E/dx2 (N/m), which may be any
 /// symmetric model of it; geometric: the gradient (N) that multiplies the second derivative of x by the rotations.
 void add_point_energy(const ContactPoint& point, const VertexShape& shape, const Vec3& gradient, const Mat3& hessian,
-                      const Vec3& geometric, BlockSystem& system);
+                      const Vec3& geometric, BlockView system);
 
 }  // namespace tendril

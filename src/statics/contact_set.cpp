@@ -92,7 +92,7 @@ void ContactSet::leave_out_covered(int i) {
   });
 }
 
-void ContactSet::add_to(const VertexShape& shape, Geometry geometry, BlockSystem& system) const {
+void ContactSet::add_to(const VertexShape& shape, Geometry geometry, BlockView system) const {
   for (int i = 0; i < size(); ++i) {
     const PointContact* c = at(i);
     if (!c) continue;

@@ -39,7 +39,7 @@ class ContactSet {
   /// the rotation of the centre line's tangents are scaled by how well the last step predicted the force (0 ... 1:
   /// mixed-stress), or taken in full.
   enum class Geometry { predicted, full };
-  void add_to(const VertexShape& shape, Geometry geometry, BlockSystem& system) const;
+  void add_to(const VertexShape& shape, Geometry geometry, BlockView system) const;
 
   /// Stores the force that the linearisation at the last positions predicts after `share` of `step`.
   void predict(const VertexShape& shape, std::span<const Vec6> step, double share);

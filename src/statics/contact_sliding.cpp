@@ -113,7 +113,7 @@ double SlidingContacts::evaluate(const VertexShape& shape, const ContactLaw& law
   return energy;
 }
 
-void SlidingContacts::add_to(const VertexShape& shape, bool exact, BlockSystem& system) const {
+void SlidingContacts::add_to(const VertexShape& shape, bool exact, BlockView system) const {
   for (const Point& p : points_) {
     if (!p.active) continue;
     const Vec3& g = p.contact.gradient;

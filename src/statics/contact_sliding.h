@@ -46,7 +46,7 @@ class SlidingContacts {
 
   /// Adds force and second derivative at the shape of the last evaluate(); `exact`, else curvature and sliding are scaled
   /// by how well the last step predicted the force, as for fixed points (contact_set.h).
-  void add_to(const VertexShape& shape, bool exact, BlockSystem& system) const;
+  void add_to(const VertexShape& shape, bool exact, BlockView system) const;
 
   void predict(const VertexShape& shape, std::span<const Vec6> step, double share);
   void predict_standing();

@@ -17,9 +17,9 @@ constexpr double hard_step = 0.02, loose_step = 2e-3;  // radii: what may be lef
 constexpr double slow = 0.4, hardening = 4;          // an overlap that falls less than this makes the law so much stiffer
 constexpr int soft_iterations = 40, hard_iterations = 80, update_iterations = 60, descent_iterations = 300;
 
-std::string text(const char* format, double a, double b) {
+std::string text(const char* format, double a) {
   char buffer[200];
-  std::snprintf(buffer, sizeof buffer, format, a, b);
+  std::snprintf(buffer, sizeof buffer, format, a);
   return buffer;
 }
 
@@ -27,20 +27,10 @@ std::string text(const char* format, double a, double b) {
 
 ContactSolver::ContactSolver(RodNetwork& network, const SolveOptions& options, const ContactOptions& contact)
     : network_(&network),
-      system_(&network.rod(0)),
       options_(options),
       contact_(contact),
-      terms_(*system_, options.element),
-      newton_(network, &terms_) {
-  if (network.rods() > 1) throw UsageError("rods at branch points do not feel obstacles");
-  const RodSystem& system = *system_;
-  const RodProblem& problem = system.problem();
-  radius_ = problem.rod.largest_radius();
-  for (const RodPart& part : problem.rod.parts) radius_ = std::min(radius_, part.section.radius());
-  double load = problem.rod.mass() * problem.gravity.norm();
-  for (const PointLoad& point : problem.loads) load += point.force.norm();
-  reference_ = std::max(load / system.length(), 50 * system.bending_scale() / radius_);
-}
+      terms_(network, options.element),
+      newton_(network, &terms_) {}
 
 NewtonOutcome ContactSolver::stage(RodState& state, Start start, double tolerance, int most_iterations, bool descend,
                                    const RunContext& context) {
@@ -59,7 +49,7 @@ NewtonOutcome ContactSolver::stage(RodState& state, Start start, double toleranc
   return out;
 }
 
-double ContactSolver::loose(double step) const { return std::max(step * radius_ / system_->length(), options_.tolerance); }
+double ContactSolver::loose(double step) const { return std::max(terms_.smallest_share(step), options_.tolerance); }
 
 bool ContactSolver::over(const ContactOutcome& out) const {
   return out.newton.status == Status::cancelled || out.newton.status == Status::timeout ||
@@ -83,11 +73,10 @@ NewtonOutcome ContactSolver::settle(RodState& state, const RodState& start, Cont
 
 /// Each round lets Newton's method come only as near as the next update needs it; the last one goes all the way.
 void ContactSolver::remove_overlap(RodState& state, ContactOutcome& out, const RunContext& context) {
-  const double enough = contact_.overlap * radius_;
   double tolerance = loose(loose_step), before = std::numeric_limits<double>::infinity();
   while (out.newton.status == Status::solved && !over(out)) {
-    const double deepest = terms_.deepest_at(state).penetration;
-    if (deepest <= enough && terms_.widest_gap(state) <= enough) {
+    const double deepest = terms_.deepest_at(state).radii;
+    if (deepest <= contact_.overlap && terms_.widest_gap(state) <= contact_.overlap) {
       if (tolerance <= options_.tolerance) break;
       tolerance = options_.tolerance;
     } else {
@@ -109,28 +98,26 @@ void ContactSolver::remove_overlap(RodState& state, ContactOutcome& out, const R
   }
 }
 
-RodState ContactSolver::clear_start() { return tendril::clear_start(*system_, terms_).state; }
+RodState ContactSolver::clear_start() { return tendril::clear_start(*network_, terms_).state; }
 
-ContactOutcome ContactSolver::run(RodState& state, const Equilibrium* from, const RunContext& context) {
+ContactOutcome ContactSolver::run(RodState& state, const SystemEquilibrium* from, const RunContext& context) {
   ContactOutcome out;
   used_ = 0;
   const RodState start = state;
   terms_.forget_forces();
-  ContactSet& set = terms_.set();
-  set.law = ContactLaw::for_overlap(reference_, radius_, hard);
-  terms_.stand_at(state);
-  const std::vector<int> crossings = terms_.guard().crossings();
-  if (!crossings.empty()) out.message = "the start crosses an obstacle at " + place_of(crossings.front());
+  terms_.set_softness(hard);
+  if (const auto crossing = terms_.first_crossing(state))
+    out.message = "the start crosses an obstacle at " + place_of(*crossing->rod, crossing->s);
 
   if (from) {
-    terms_.take_forces(from->contacts);
+    for (const ContactNetwork::Rod& rod : terms_.rods()) rod.terms->take_forces(from->rods[rod.index].contacts);
     out.newton = stage(state, Start::warm, loose(hard_step), hard_iterations, false, context);
   } else {
-    set.law = ContactLaw::for_overlap(reference_, radius_, soft);
+    terms_.set_softness(soft);
     terms_.set_early_end(true);
     out.newton = stage(state, Start::cold, soft_tolerance, soft_iterations, false, context);
     terms_.set_early_end(false);
-    set.law = ContactLaw::for_overlap(reference_, radius_, hard);
+    terms_.set_softness(hard);
   }
   if (!over(out) && !(from && out.newton.status == Status::solved)) settle(state, start, out, context);
   remove_overlap(state, out, context);
@@ -142,53 +129,52 @@ ContactOutcome ContactSolver::run(RodState& state, const Equilibrium* from, cons
 ContactOutcome ContactSolver::run_penalty(RodState& state, double stiffness, const RunContext& context) {
   ContactOutcome out;
   used_ = 0;
-  terms_.set().law = {stiffness, std::numeric_limits<double>::infinity()};
+  for (const ContactNetwork::Rod& rod : terms_.rods())
+    rod.terms->set().law = {stiffness, std::numeric_limits<double>::infinity()};
   out.newton = stage(state, Start::cold, options_.tolerance, hard_iterations, false, context);
   if (out.newton.status == Status::stalled) {
     ++out.fallbacks;
     out.newton = stage(state, Start::cold, options_.tolerance, descent_iterations, true, context);
   }
   out.newton.iterations = used_;
-  terms_.stand_at(state);
-  out.deepest = terms_.deepest_at(state).penetration;
+  out.deepest = terms_.deepest_at(state).place.penetration;
   return out;
 }
 
 /// Nothing that overlaps more than stated or crosses a surface is called solved.
 void ContactSolver::judge(const RodState& state, ContactOutcome& out) {
-  terms_.stand_at(state);
-  const ContactTerms::Deepest deepest = terms_.deepest_at(state);
-  out.deepest = std::max(0.0, deepest.penetration);
-  const std::vector<int> crossings = terms_.guard().crossings();
-  if (!crossings.empty()) {
-    out.message = (out.message.empty() ? "" : out.message + "; ") + "the rod crosses an obstacle at " + place_of(crossings.front());
-    if (out.newton.status == Status::solved) out.newton.status = Status::stalled;
-  } else if (out.deepest > largest_solved_overlap * radius_) {
-    out.message = (out.message.empty() ? "" : out.message + "; ") +
-                  text("the rod overlaps an obstacle by %.3g mm at s = %.4g m", 1e3 * out.deepest, deepest.point.s);
-    if (out.newton.status == Status::solved) out.newton.status = Status::stalled;
-  }
+  const ContactNetwork::Deepest deepest = terms_.deepest_at(state);
+  out.deepest = std::max(0.0, deepest.place.penetration);
+  std::string fault;
+  if (const auto crossing = terms_.first_crossing(state))
+    fault = "the rod crosses an obstacle at " + place_of(*crossing->rod, crossing->s);
+  else if (deepest.radii > largest_solved_overlap)
+    fault = text("the rod overlaps an obstacle by %.3g mm at ", 1e3 * out.deepest) + place_of(*deepest.rod, deepest.place.point.s);
+  if (fault.empty()) return;
+  out.message = (out.message.empty() ? "" : out.message + "; ") + fault;
+  if (out.newton.status == Status::solved) out.newton.status = Status::stalled;
 }
 
-std::string ContactSolver::place_of(int point) const {
-  const ContactSet& set = terms_.set();
-  return text("s = %.4g m", set.points()[point].s, 0);
+std::string ContactSolver::place_of(const ContactNetwork::Rod& rod, double s) const {
+  return text("s = %.4g m", s) + (network_->rods() > 1 ? " of rod " + std::to_string(rod.index + 1) : "");
 }
 
 void ContactSolver::add_gradient(const RodState& state, std::vector<Vec6>& gradient) {
-  scratch_.resize(system_->nodes());
+  scratch_.resize(network_->nodes(), static_cast<int>(network_->pattern().edges.size()));
   for (Vec6& g : scratch_.gradient) g.setZero();
   for (Mat6& block : scratch_.diagonal) block.setZero();
   for (Mat6& block : scratch_.upper) block.setZero();
-  terms_.add_to(state, true, scratch_);
-  for (int i = 0; i < system_->nodes(); ++i) gradient[i] += scratch_.gradient[i];
+  for (const ContactNetwork::Rod& rod : terms_.rods()) rod.terms->add_to(state, true, scratch_);
+  for (int i = 0; i < network_->nodes(); ++i) gradient[i] += scratch_.gradient[i];
 }
 
-void ContactSolver::describe(const RodState& state, Equilibrium& out) {
-  terms_.stand_at(state);
-  const ContactSet& set = terms_.set();
+void ContactSolver::describe(const RodState& state, int rod, Equilibrium& out) {
   out.contacts.clear();
   out.energy.contact = 0;
+  ContactTerms* terms = terms_.of_rod(rod);
+  if (!terms) return;
+  terms->stand_at(state);
+  const ContactSet& set = terms->set();
   for (int i = 0; i < set.size(); ++i) {
     const PointContact* c = set.at(i);
     if (!c || c->gradient.isZero(0)) continue;
@@ -197,14 +183,14 @@ void ContactSolver::describe(const RodState& state, Equilibrium& out) {
     // What the shift adds is bookkeeping of the method, not stored energy.
     out.energy.contact += p.weight * set.law.at(p.radius - c->distance).energy;
   }
-  for (const SlidingContacts::Point& p : terms_.sliding().points()) {
+  for (const SlidingContacts::Point& p : terms->sliding().points()) {
     const PointContact& c = p.contact;
     if (!p.active || c.gradient.isZero(0)) continue;
     out.contacts.push_back({p.at.s, p.x, -c.gradient, c.distance - p.at.radius, c.obstacle});
     out.energy.contact += p.at.weight * set.law.at(p.at.radius - c.distance).energy;
   }
   std::sort(out.contacts.begin(), out.contacts.end(), [](const ContactForce& a, const ContactForce& b) { return a.s < b.s; });
-  out.deepest_penetration = std::max(0.0, terms_.deepest_at(state).penetration);
+  out.deepest_penetration = std::max(0.0, terms->deepest_at(state).penetration);
 }
 
 }  // namespace tendril

@@ -8,7 +8,7 @@
 
 #include <string>
 
-#include "statics/contact_terms.h"
+#include "statics/contact_network.h"
 
 namespace tendril {
 
@@ -30,14 +30,14 @@ struct ContactOutcome {
 
 class ContactSolver {
  public:
-  /// The problem of `network`, one rod, must have surroundings.
+  /// At least one rod of `network` must have surroundings.
   ContactSolver(RodNetwork& network, const SolveOptions& options, const ContactOptions& contact = {});
 
   /// Where a cold start begins: the first guess, changed where it would cross the surroundings (contact_start.h).
   RodState clear_start();
 
   /// Moves `state` to an equilibrium. `from`: a solution whose contact forces to start from; null: a cold start.
-  ContactOutcome run(RodState& state, const Equilibrium* from, const RunContext& context);
+  ContactOutcome run(RodState& state, const SystemEquilibrium* from, const RunContext& context);
 
   /// One Newton run on a given penalty law, without updates: for comparison with penalty models.
   ContactOutcome run_penalty(RodState& state, double stiffness, const RunContext& context);
@@ -45,10 +45,11 @@ class ContactSolver {
   /// Adds the contact forces' part of the gradient to that of the rod.
   void add_gradient(const RodState& state, std::vector<Vec6>& gradient);
 
-  /// Fills contacts, deepest_penetration and energy.contact.
-  void describe(const RodState& state, Equilibrium& out);
+  /// Fills contacts, deepest_penetration and energy.contact of one rod.
+  void describe(const RodState& state, int rod, Equilibrium& out);
 
-  ContactTerms& terms() { return terms_; }
+  /// Of a rod that has surroundings.
+  ContactTerms& terms(int rod = 0) { return *terms_.of_rod(rod); }
   Newton& newton() { return newton_; }
 
  private:
@@ -60,16 +61,13 @@ class ContactSolver {
   void judge(const RodState& state, ContactOutcome& out);
   double loose(double step) const;
   bool over(const ContactOutcome& out) const;
-  std::string place_of(int point) const;
+  std::string place_of(const ContactNetwork::Rod& rod, double s) const;
 
   RodNetwork* network_;
-  RodSystem* system_;
   SolveOptions options_;
   ContactOptions contact_;
-  ContactTerms terms_;
+  ContactNetwork terms_;
   Newton newton_;
-  double radius_;      ///< smallest of the rod, m
-  double reference_;   ///< force per length that the stiffness is made for, N/m
   int used_ = 0;       ///< factorisations so far
   BlockSystem scratch_;
 };

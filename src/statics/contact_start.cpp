@@ -6,6 +6,7 @@
 
 #include "base/units.h"
 #include "statics/first_guess.h"
+#include "statics/network_guess.h"
 
 namespace tendril {
 
@@ -44,8 +45,7 @@ struct Chord {
   Vec3 along = Vec3::Zero();
 };
 
-Chord chord_of(const RodSystem& system) {
-  const RodProblem& problem = system.problem();
+Chord chord_of(const RodProblem& problem) {
   std::vector<std::pair<double, Vec3>> places;
   for (const Hold& hold : problem.holds)
     if (hold.position) places.push_back({hold.at, hold.frame.at});
@@ -59,9 +59,7 @@ Chord chord_of(const RodSystem& system) {
   return chord;
 }
 
-std::vector<Frame> guess(const RodSystem& system, const Chord& chord, const SpanVariant& variant) {
-  RodProblem problem = system.problem();
-  RodMesh mesh = system.mesh();
+std::vector<Frame> guess(RodProblem problem, RodMesh mesh, const Chord& chord, const SpanVariant& variant) {
   if (variant.turn != 0) {
     // Without gravity the bulge has no preferred side to be turned from.
     const Vec3 down = problem.gravity.isZero(0) ? Vec3(chord.along.unitOrthogonal()) : problem.gravity;
@@ -85,10 +83,9 @@ Vec3 curl_axis(const Frame& frame, const Vec3& up, double turn, double sign) {
 }
 
 /// Replaces the free ends of a guess by arcs.
-void curl_tails(const RodSystem& system, const TailVariant& variant, std::vector<Frame>& frames) {
-  const RodMesh& mesh = system.mesh();
+void curl_tails(const RodProblem& problem, const RodMesh& mesh, const TailVariant& variant, std::vector<Frame>& frames) {
   const auto [first, last] = std::minmax_element(mesh.hold_vertex.begin(), mesh.hold_vertex.end());
-  const Vec3 up = system.problem().gravity.isZero(0) ? Vec3::UnitZ() : Vec3(-system.problem().gravity.normalized());
+  const Vec3 up = problem.gravity.isZero(0) ? Vec3::UnitZ() : Vec3(-problem.gravity.normalized());
   const int n = mesh.vertices();
   if (*last < n - 1) {
     const double angle = variant.curl * units::deg / (mesh.s[n - 1] - mesh.s[*last]);
@@ -110,42 +107,76 @@ void curl_tails(const RodSystem& system, const TailVariant& variant, std::vector
   }
 }
 
-/// Tries a guess; true when it is free of crossings.
-bool consider(const RodSystem& system, ContactTerms& terms, const std::vector<Frame>& frames, ContactStart& best) {
-  RodState state = system.state_from(frames);
-  terms.stand_at(state);
-  const int crossings = static_cast<int>(terms.guard().crossings().size());
-  if (best.tried == 0 || crossings < best.crossings) {
-    best.state = std::move(state);
-    best.crossings = crossings;
+/// The best guess so far of one rod of a network.
+class Search {
+ public:
+  Search(const RodNetwork& network, NetworkGuess& guess, int rod, ContactTerms& terms, ContactStart& out)
+      : network_(network), guess_(guess), rod_(rod), terms_(terms), out_(out), fewest_(crossings_of(guess.rods[rod])) {}
+
+  bool done() const { return fewest_ == 0; }
+  int fewest() const { return fewest_; }
+
+  /// Keeps the frames when they cross less.
+  bool consider(const std::vector<Frame>& frames) {
+    const int crossings = crossings_of(frames);
+    if (crossings >= fewest_) return false;
+    guess_.rods[rod_] = frames;
+    fewest_ = crossings;
+    return true;
   }
-  ++best.tried;
-  return crossings == 0;
+
+ private:
+  int crossings_of(const std::vector<Frame>& frames) {
+    ++out_.tried;
+    std::vector<Frame> before = frames;
+    guess_.rods[rod_].swap(before);
+    terms_.stand_at(network_.state_from(guess_.rods, guess_.branches));
+    guess_.rods[rod_].swap(before);
+    return static_cast<int>(terms_.guard().crossings().size());
+  }
+
+  const RodNetwork& network_;
+  NetworkGuess& guess_;
+  int rod_;
+  ContactTerms& terms_;
+  ContactStart& out_;
+  int fewest_;
+};
+
+void clear_rod(const RodProblem& problem, const RodMesh& mesh, const std::vector<Frame>& usual, Search& search) {
+  if (search.done() || mesh.hold_vertex.empty()) return;
+  const Chord chord = chord_of(problem);
+  const bool spans_vary = chord.held > 0 && !chord.along.isZero(0) && !problem.rod.shape;
+  std::vector<Frame> frames = usual;
+  for (std::size_t k = 1; spans_vary && k < span_variants.size() && !search.done(); ++k) {
+    std::vector<Frame> other = guess(problem, mesh, chord, span_variants[k]);
+    if (search.consider(other)) frames = std::move(other);
+  }
+  const auto [first, last] = std::minmax_element(mesh.hold_vertex.begin(), mesh.hold_vertex.end());
+  const bool tails = *first > 0 || *last < mesh.vertices() - 1;
+  for (std::size_t k = 0; tails && k < tail_variants.size() && !search.done(); ++k) {
+    std::vector<Frame> other = frames;
+    curl_tails(problem, mesh, tail_variants[k], other);
+    search.consider(other);
+  }
 }
 
 }  // namespace
 
-ContactStart clear_start(const RodSystem& system, ContactTerms& terms) {
-  ContactStart best;
-  const RodMesh& mesh = system.mesh();
-  const Chord chord = chord_of(system);
-  const bool spans_vary = chord.held > 0 && !chord.along.isZero(0) && !system.problem().rod.shape;
-  std::vector<Frame> frames = guess(system, chord, {1, 0});
-  if (consider(system, terms, frames, best)) return best;
-  for (std::size_t k = 1; spans_vary && k < span_variants.size(); ++k) {
-    const int before = best.crossings;
-    std::vector<Frame> other = guess(system, chord, span_variants[k]);
-    if (consider(system, terms, other, best)) return best;
-    if (best.crossings < before) frames = std::move(other);
+ContactStart clear_start(const RodNetwork& network, ContactNetwork& contact) {
+  ContactStart out;
+  NetworkGuess guess = network_guess(network);
+  for (const ContactNetwork::Rod& rod : contact.rods()) {
+    RodProblem problem = network.rod(rod.index).problem();
+    RodMesh mesh = network.rod(rod.index).mesh();
+    hold_at_branches(network, guess, rod.index, problem, mesh);
+    const std::vector<Frame> usual = guess.rods[rod.index];
+    Search search(network, guess, rod.index, *rod.terms, out);
+    clear_rod(problem, mesh, usual, search);
+    out.crossings += search.fewest();
   }
-  const auto [first, last] = std::minmax_element(mesh.hold_vertex.begin(), mesh.hold_vertex.end());
-  const bool tails = *first > 0 || *last < mesh.vertices() - 1;
-  for (std::size_t k = 0; tails && k < tail_variants.size(); ++k) {
-    std::vector<Frame> other = frames;
-    curl_tails(system, tail_variants[k], other);
-    if (consider(system, terms, other, best)) return best;
-  }
-  return best;
+  out.state = network.state_from(guess.rods, guess.branches);
+  return out;
 }
 
 }  // namespace tendril

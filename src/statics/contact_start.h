@@ -5,7 +5,7 @@
 // up; free ends curled up, to the sides and down. The first without a crossing is taken, else the one with the fewest.
 #pragma once
 
-#include "statics/contact_terms.h"
+#include "statics/contact_network.h"
 
 namespace tendril {
 
@@ -15,6 +15,7 @@ struct ContactStart {
   int tried = 0;
 };
 
-ContactStart clear_start(const RodSystem& system, ContactTerms& terms);
+/// Branch points stay where the network's first guess puts them; the rods are changed one by one.
+ContactStart clear_start(const RodNetwork& network, ContactNetwork& contact);
 
 }  // namespace tendril

@@ -17,8 +17,6 @@ constexpr double covered_side = 0.75;   // radii to both sides of a sliding poin
                                         // point there is at least a quarter of the radius off
 constexpr double flat_enough = 0.3;     // below this a sliding point gives its force back to the fixed ones
 
-VertexShape shape_of(const RodState& state) { return {state.r, state.q}; }
-
 std::vector<double> radii_of(const RodMesh& mesh) {
   std::vector<double> radii;
   for (const MeshSegment& segment : mesh.segments) radii.push_back(segment.section.radius());
@@ -57,9 +55,10 @@ double overlap_under(const ContactLaw& law, double force) {
 
 }  // namespace
 
-ContactTerms::ContactTerms(const RodSystem& system, Element element)
+ContactTerms::ContactTerms(const RodSystem& system, Element element, int first_node)
     : system_(&system),
       element_(element),
+      first_(first_node),
       radii_(radii_of(system.mesh())),
       set_(*system.problem().surroundings, contact_points(system.mesh().s, radii_, element), 0.25 * system.length()),
       sliding_(*system.problem().surroundings, system.mesh().s, radii_, element),
@@ -69,6 +68,15 @@ ContactTerms::ContactTerms(const RodSystem& system, Element element)
     if (problem.holds[i].position) held_s_.push_back(system.mesh().s[system.mesh().hold_vertex[i]]);
   for (int i = 0; i < set_.size(); ++i)
     if (near_hold(set_.points()[i].s, set_.points()[i].radius)) set_.exclude(i);
+}
+
+VertexShape ContactTerms::shape_of(const RodState& state) const {
+  const std::size_t n = system_->nodes();
+  return {{state.r.data() + first_, n}, {state.q.data() + first_, n}};
+}
+
+std::span<const Vec6> ContactTerms::own(const std::vector<Vec6>& step) const {
+  return {step.data() + first_, static_cast<std::size_t>(system_->nodes())};
 }
 
 bool ContactTerms::near_hold(double s, double radius) const {
@@ -124,7 +132,7 @@ double ContactTerms::assemble(const RodState& state, Stress stress, BlockSystem&
   const VertexShape shape = shape_of(state);
   for (const Blockade& b : springs_) {
     const MeshSegment& segment = system_->mesh().segments[set_.points()[b.point].segment];
-    add_blockade_springs(set_, shape, {b}, 10 * segment.section.EA / segment.length, system);
+    add_blockade_springs(set_, shape, {b}, 10 * segment.section.EA / segment.length, BlockView(system, first_));
   }
   return energy_;
 }
@@ -132,15 +140,15 @@ double ContactTerms::assemble(const RodState& state, Stress stress, BlockSystem&
 void ContactTerms::add_to(const RodState& state, bool exact, BlockSystem& system) {
   stand_at(state);
   const VertexShape shape = shape_of(state);
-  set_.add_to(shape, exact ? ContactSet::Geometry::full : ContactSet::Geometry::predicted, system);
-  sliding_.add_to(shape, exact, system);
+  set_.add_to(shape, exact ? ContactSet::Geometry::full : ContactSet::Geometry::predicted, BlockView(system, first_));
+  sliding_.add_to(shape, exact, BlockView(system, first_));
 }
 
 double ContactTerms::energy(const RodState& state) { return stand_at(state); }
 
 double ContactTerms::allowed(const RodState& state, const std::vector<Vec6>& step, double share) {
   stand_at(state);
-  GuardedStep guarded = guard_.admit(shape_of(state), step, share);
+  GuardedStep guarded = guard_.admit(shape_of(state), own(step), share);
   blockades_ = std::move(guarded.blockades);
   if (early_end_) {
     double nearest = 1;
@@ -171,8 +179,8 @@ void ContactTerms::stepped(const RodState& before, const std::vector<Vec6>& step
   stiffened_ = 0;
   if (exact_) return;
   stand_at(before);
-  set_.predict(shape_of(before), step, share);
-  sliding_.predict(shape_of(before), step, share);
+  set_.predict(shape_of(before), own(step), share);
+  sliding_.predict(shape_of(before), own(step), share);
 }
 
 /// The fixed points and the sliding ones between them, in the order of the rod.

@@ -11,7 +11,8 @@ class ContactTerms final : public FurtherTerms {
  public:
   /// Points along the rod of `system` against its problem's surroundings, which must outlive this. Points within one
   /// radius of a held position take no part: a rod leaves its fitting there.
-  ContactTerms(const RodSystem& system, Element element);
+  /// `first_node`: where the rod's nodes begin in the states, steps and systems that are given.
+  ContactTerms(const RodSystem& system, Element element, int first_node = 0);
   ContactTerms(const ContactTerms&) = delete;  // parts point at each other
   ContactTerms& operator=(const ContactTerms&) = delete;
 
@@ -80,6 +81,8 @@ class ContactTerms final : public FurtherTerms {
   };
   void list_stations();
   double evaluate(const VertexShape& shape);
+  VertexShape shape_of(const RodState& state) const;
+  std::span<const Vec6> own(const std::vector<Vec6>& step) const;
   Deepest deepest_between(const Station& low, const Station& high, const VertexShape& shape) const;
   void track_edges(const RodState& state);
   int point_before(double s) const;
@@ -87,6 +90,7 @@ class ContactTerms final : public FurtherTerms {
 
   const RodSystem* system_;
   Element element_;
+  int first_;                        ///< node
   std::vector<double> radii_;        ///< per segment
   std::vector<double> held_s_;       ///< arc lengths of held positions
   ContactSet set_;

@@ -160,6 +160,17 @@ void turn_branches(const SystemProblem& problem, const std::vector<Span>& spans,
 
 }  // namespace
 
+void hold_at_branches(const RodNetwork& network, const NetworkGuess& guess, int rod, RodProblem& problem, RodMesh& mesh) {
+  const std::vector<BranchPoint>& branches = network.problem().branches;
+  std::size_t seen = 0;
+  for (std::size_t b = 0; b < branches.size(); ++b)
+    for (const JoinedSection& section : branches[b].sections) {
+      if (section.rod != rod) continue;
+      problem.holds.push_back({section.at, guess.branches[b] * section.relative});
+      mesh.hold_vertex.push_back(mesh.joint_vertex[seen++]);
+    }
+}
+
 NetworkGuess network_guess(const RodNetwork& network) {
   const SystemProblem& problem = network.problem();
   NetworkGuess guess;
@@ -176,13 +187,7 @@ NetworkGuess network_guess(const RodNetwork& network) {
     }
     RodProblem held = problem.rods[k];
     RodMesh mesh = network.rod(k).mesh();
-    std::size_t seen = 0;
-    for (std::size_t b = 0; b < problem.branches.size(); ++b)
-      for (const JoinedSection& section : problem.branches[b].sections) {
-        if (section.rod != k) continue;
-        held.holds.push_back({section.at, guess.branches[b] * section.relative});
-        mesh.hold_vertex.push_back(mesh.joint_vertex[seen++]);
-      }
+    hold_at_branches(network, guess, k, held, mesh);
     guess.rods.push_back(first_guess(held, mesh));
   }
   return guess;

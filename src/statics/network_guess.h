@@ -15,4 +15,7 @@ struct NetworkGuess {
 /// their other ends; linear in their number. A single rod is guessed as first_guess.h says.
 NetworkGuess network_guess(const RodNetwork& network);
 
+/// Adds holds where sections of rod `rod` belong to the branch points of a guess, and their vertices.
+void hold_at_branches(const RodNetwork& network, const NetworkGuess& guess, int rod, RodProblem& problem, RodMesh& mesh);
+
 }  // namespace tendril

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "statics/contact_reach.h"
 #include "statics/network_guess.h"
 
 namespace tendril {
@@ -73,10 +74,6 @@ std::vector<int> segments_of(const SystemProblem& problem) {
   return segments;
 }
 
-bool has_surroundings(const SystemProblem& problem) {
-  return std::any_of(problem.rods.begin(), problem.rods.end(), [](const RodProblem& rod) { return rod.surroundings; });
-}
-
 int vertices_of(const RodNetwork& network) {
   int sum = 0;
   for (int k = 0; k < network.rods(); ++k) sum += network.rod(k).mesh().vertices();
@@ -116,7 +113,7 @@ NetworkSolver::NetworkSolver(const SystemProblem& problem, const SolveOptions& o
       refinement_(refinement),
       network_(std::make_unique<RodNetwork>(problem, options, segments_of(problem), refinement)),
       newton_(*network_, nullptr) {
-  if (has_surroundings(problem)) contact_ = std::make_unique<ContactSolver>(*network_, options_);
+  if (can_touch(*network_)) contact_ = std::make_unique<ContactSolver>(*network_, options_);
 }
 
 RodState NetworkSolver::starting_state(const SystemEquilibrium* from) const {
@@ -255,7 +252,7 @@ NewtonOutcome NetworkSolver::by_staggered(RodState& state, int most, const RunCo
 SystemEquilibrium NetworkSolver::solve_in_contact(const RunContext& context, const SystemEquilibrium* from) {
   SystemEquilibrium out;
   RodState state = starting_state(from);
-  const ContactOutcome outcome = contact_->run(state, from ? &from->rods[0] : nullptr, context);
+  const ContactOutcome outcome = contact_->run(state, from, context);
   describe(state, out);
   const bool solved = outcome.newton.status == Status::solved;
   set_verdict(outcome.newton,
@@ -335,7 +332,7 @@ void NetworkSolver::describe(const RodState& state, SystemEquilibrium& out) {
       system.add_reaction(static_cast<int>(h), own, gradient_.data() + network_->first_node(k), rod.reactions[h]);
     }
   }
-  if (contact_) contact_->describe(state, out.rods[0]);
+  for (int k = 0; contact_ && k < network_->rods(); ++k) contact_->describe(state, k, out.rods[k]);
   describe_joints(state, gradient_, out);
   network_->join_gradient(state, gradient_);
   double residual = 0;

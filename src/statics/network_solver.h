@@ -43,7 +43,7 @@ class NetworkSolver {
   int refinement_;
   std::unique_ptr<RodNetwork> network_;
   Newton newton_;
-  std::unique_ptr<ContactSolver> contact_;  ///< null without surroundings
+  std::unique_ptr<ContactSolver> contact_;  ///< null without surroundings in reach
   std::unique_ptr<SystemEquilibrium> substitute_;
   std::vector<Vec6> gradient_;
 };

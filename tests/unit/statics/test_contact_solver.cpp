@@ -82,7 +82,7 @@ TEST_CASE("contact solver: a heavy hose on a soft floor agrees with the penalty 
     REQUIRE(outcome.newton.status == Status::solved);
     Equilibrium eq;
     system->describe(state, eq);
-    solver.describe(state, eq);
+    solver.describe(state, 0, eq);
     std::vector<Vec6> gradient;
     network.gradient(state, gradient);
     solver.add_gradient(state, gradient);
@@ -204,9 +204,9 @@ TEST_CASE("contact solver: the first guess does not hang through a floor") {
       grid_sheet(4, 4, [](double u, double v) { return Vec3(2 * u - 1, 2 * v - 1, -0.05); });
   problem.surroundings = &floor;
   SolveOptions options;
-  auto system = make_rod_system(problem, options, cut_into_segments(problem, 40));
-  ContactTerms terms(*system, options.element);
-  const ContactStart start = clear_start(*system, terms);
+  RodNetwork network({{problem}, {}}, options, {40});
+  ContactNetwork contact(network, options.element);
+  const ContactStart start = clear_start(network, contact);
   CHECK(start.crossings == 0);
   CHECK(start.tried > 1);
   for (const Vec3& r : start.state.r) CHECK(r.z() > -0.05);
