@@ -76,7 +76,7 @@ void ContactSolver::remove_overlap(RodState& state, ContactOutcome& out, const R
   double tolerance = loose(loose_step), before = std::numeric_limits<double>::infinity();
   while (out.newton.status == Status::solved && !over(out)) {
     const double deepest = terms_.deepest_at(state).radii;
-    if (deepest <= contact_.overlap && terms_.widest_gap(state) <= contact_.overlap) {
+    if (deepest <= contact_.overlap && terms_.widest_gap(state) <= largest_solved_overlap) {
       if (tolerance <= options_.tolerance) break;
       tolerance = options_.tolerance;
     } else {

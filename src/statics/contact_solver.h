@@ -13,7 +13,7 @@
 namespace tendril {
 
 struct ContactOptions {
-  double overlap = 5e-4;      ///< deepest overlap that is aimed at, in radii, also between contact points
+  double overlap = 8e-4;      ///< deepest overlap that is aimed at, in radii, also between contact points
   int most_updates = 20;      ///< of the augmented Lagrangian
 };
 

@@ -116,7 +116,7 @@ void Newton::factor(const RodState& state, const NewtonOptions& options, NewtonO
     assemble(state);
     linear_.take_out_held(state);
   }
-  out.negative_pivots = linear_.factor(options.stable_only, out.iterations);
+  out.negative_pivots = linear_.factor(options.stable_only, out.iterations, !options.convex);
 }
 
 NewtonOutcome Newton::run(RodState& state, const NewtonOptions& options, const RunContext& context) {

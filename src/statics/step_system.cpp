@@ -72,7 +72,7 @@ int StepSystem::factor_as_is(int& factorisations) {
   return ldlt_.factor(block);
 }
 
-int StepSystem::factor(bool only_positive, int& factorisations) {
+int StepSystem::factor(bool only_positive, int& factorisations, bool try_neutral) {
   int negative = 0;
   auto shift_by = [&](double change) {
     if (change > 0) add_shift(change);
@@ -84,7 +84,7 @@ int StepSystem::factor(bool only_positive, int& factorisations) {
   if (network_.has_moments()) only_positive = false;
   auto good_enough = [&] { return !ldlt_.broken() && (negative == 0 || !only_positive); };
   double neutral = 0;
-  for (double next = smallest_neutral; shift_ == 0 && !good_enough() && next < network_.neutral_shift(); next *= neutral_growth) {
+  for (double next = smallest_neutral; try_neutral && shift_ == 0 && !good_enough() && next < network_.neutral_shift(); next *= neutral_growth) {
     shift_by(next - neutral);
     neutral = next;
   }

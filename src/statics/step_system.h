@@ -20,9 +20,9 @@ class StepSystem {
   /// Takes the held unknowns out and lets the holds' remaining way to their places act on the others.
   void take_out_held(const RodState& state);
 
-  /// Factorises. `only_positive`: with a shift where needed. Returns the number of pivots that were not positive before
-  /// any shift larger than a neutral direction's; adds to `factorisations`.
-  int factor(bool only_positive, int& factorisations);
+  /// Factorises. `only_positive`: with a shift where needed; `try_neutral`: first one for a neutral direction. Returns the
+  /// number of pivots that were not positive before any larger shift; adds to `factorisations`.
+  int factor(bool only_positive, int& factorisations, bool try_neutral = true);
   /// Factorises without any shift; returns the number of pivots that are not positive.
   int factor_as_is(int& factorisations);
   bool broken() const { return ldlt_.broken(); }
