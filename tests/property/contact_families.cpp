@@ -333,6 +333,89 @@ ContactCase corner_case(std::mt19937_64& random, const MakeField& make) {
                   inside([](const Vec3& p) { return p.x() > 0 || p.y() > 0 || p.z() < 0; }));
 }
 
+/// A preformed hose, an arc in its own plane, turned about its chord at random.
+ContactCase preformed_case(std::mt19937_64& random, const MakeField& make) {
+  ContactCase one = box_edge_case(random, make);
+  const double curvature = uniform(random, -3, 3);
+  one.problem.rod.shape = [=](double s) {
+    return Frame{Vec3::Zero(), exp_rotation(Vec3(0, curvature * s, 0))} *
+           Frame{Vec3(0, 0, s * (1 - curvature * curvature * s * s / 6)), Quat::Identity()};
+  };
+  return one;
+}
+
+/// A floor with an upright sheet on it, welded along their common line.
+ContactCase upright_sheet_case(std::mt19937_64& random, const MakeField& make) {
+  const double top = uniform(random, 0.02, 0.05), at = uniform(random, -0.05, 0.05);
+  RodProblem problem = hanging(random, uniform(random, 0.12, 0.25), uniform(random, 0.12, 0.25), uniform(random, 0.6, 0.8));
+  SheetMesh mesh;
+  for (double y : {-1.0, 1.0})
+    for (const Vec3& v : {Vec3(-1, y, 0), Vec3(at, y, 0), Vec3(1, y, 0), Vec3(at, y, top)}) mesh.vertices.push_back(v);
+  for (const auto& [a, b] : {std::pair{0, 1}, {1, 2}, {1, 3}}) {
+    mesh.triangles.push_back({a, b, b + 4});
+    mesh.triangles.push_back({a, b + 4, a + 4});
+  }
+  const auto under_floor = under([](double, double) { return 0.0; });
+  return finished(std::move(problem), make(mesh), [=](const Equilibrium& eq) {
+    const auto samples = eq.sampled(0.002);
+    for (std::size_t k = 0; k + 1 < samples.size(); ++k) {
+      const Vec3 &a = samples[k].frame.at, &b = samples[k + 1].frame.at;
+      if ((a.x() < at) == (b.x() < at)) continue;
+      if ((a + (at - a.x()) / (b.x() - a.x()) * (b - a)).z() < top) return true;
+    }
+    return under_floor(eq);
+  });
+}
+
+/// Three hoses of 0.4 to 0.6 m from clamps around a free branch point.
+SystemProblem three_hoses(std::mt19937_64& random, double height) {
+  SystemProblem system;
+  BranchPoint branch;
+  const double turned = uniform(random, 0, 2 * pi);
+  for (int k = 0; k < 3; ++k) {
+    RodProblem problem;
+    const double length = uniform(random, 0.4, 0.6), radius = uniform(random, 0.005, 0.012);
+    const double young = 2e6 * std::pow(10.0, uniform(random, 0, 1));
+    problem.rod = Rod::uniform(length, Section::round(2 * radius, 0, Material::from_poisson(young, 0.49, 1100)), 30);
+    problem.gravity = {0, 0, -9.81};
+    const double angle = turned + 2 * pi * k / 3 + uniform(random, -0.2, 0.2);
+    const Vec3 out(std::cos(angle), std::sin(angle), 0);
+    clamp(problem, 0, uniform(random, 0.75, 0.9) * length * out + Vec3(0, 0, height + uniform(random, -0.03, 0.03)),
+          near(-out, 0.3, random));
+    system.rods.push_back(std::move(problem));
+    branch.sections.push_back({k, length, Frame::looking(Vec3::Zero(), -out)});
+  }
+  branch.frame.at = {0, 0, height};
+  system.branches.push_back(std::move(branch));
+  return system;
+}
+
+HarnessCase finished(SystemProblem problem, std::shared_ptr<ContactField> field,
+                     std::function<bool(const Equilibrium&)> tunnelled) {
+  for (RodProblem& rod : problem.rods) rod.surroundings = field.get();
+  return {std::move(problem), std::move(field), std::move(tunnelled)};
+}
+
+HarnessCase harness_on_floor(std::mt19937_64& random, const MakeField& make) {
+  const Height flat = [](double, double) { return 0.0; };
+  return finished(three_hoses(random, uniform(random, 0.06, 0.15)), make(surface(4, 2, flat)), under(flat));
+}
+
+HarnessCase harness_on_box(std::mt19937_64& random, const MakeField& make) {
+  const Vec3 low(-0.3, -0.4, -1), high(uniform(random, 0.02, 0.2), uniform(random, 0.02, 0.2), uniform(random, -0.08, -0.03));
+  return finished(three_hoses(random, 0), make(SheetMesh::box(low, high, 3)), inside([=](const Vec3& p) {
+                    return (p.array() > low.array()).all() && (p.array() < high.array()).all();
+                  }));
+}
+
+HarnessCase harness_on_hills(std::mt19937_64& random, const MakeField& make, int cells) {
+  const double a = uniform(random, 0.01, 0.03), k = uniform(random, 8, 20), shift = uniform(random, 0, 2 * pi);
+  const Height hills = [=](double x, double y) { return a * std::sin(k * x + shift) * std::cos(0.8 * k * y); };
+  const double roughness = a * k * 3 / cells;
+  return finished(three_hoses(random, uniform(random, 0.08, 0.15)), make(surface(cells, 1.5, hills)),
+                  under([=](double x, double y) { return hills(x, y) - roughness; }));
+}
+
 }  // namespace
 
 std::vector<ContactFamily> contact_families(int terrain_cells) {
@@ -348,6 +431,17 @@ std::vector<ContactFamily> contact_families(int terrain_cells) {
           {"clamps force contact", forced_case},
           {"free tip", free_tip_case},
           {"corner", corner_case}};
+}
+
+std::vector<ContactFamily> further_contact_families() {
+  return {{"preformed, box edge", preformed_case}, {"sheets three at a line", upright_sheet_case}};
+}
+
+std::vector<HarnessFamily> harness_families(int terrain_cells) {
+  return {{"harness on a floor", harness_on_floor},
+          {"harness on a box edge", harness_on_box},
+          {"harness on hills",
+           [=](std::mt19937_64& random, const MakeField& make) { return harness_on_hills(random, make, terrain_cells); }}};
 }
 
 }  // namespace tendril::test

@@ -41,6 +41,25 @@ struct ContactFamily {
 /// `terrain_cells`: squares along each side of the terrain.
 std::vector<ContactFamily> contact_families(int terrain_cells);
 
+/// Beside the benchmark's families: preformed hoses over a box's edge, and hoses on a profile whose sheets meet three at
+/// a line (no manifold).
+std::vector<ContactFamily> further_contact_families();
+
+/// A harness of three rods at a free branch point.
+struct HarnessCase {
+  SystemProblem problem;
+  std::shared_ptr<ContactField> field;
+  std::function<bool(const Equilibrium&)> tunnelled;  ///< of one rod
+};
+
+struct HarnessFamily {
+  std::string name;
+  std::function<HarnessCase(std::mt19937_64&, const MakeField&)> make;
+};
+
+/// Harnesses that fall on a floor, on a box's edge and on hills.
+std::vector<HarnessFamily> harness_families(int terrain_cells);
+
 /// A field that sums over every triangle; for small meshes.
 MakeField every_triangle();
 

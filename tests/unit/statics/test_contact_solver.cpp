@@ -147,8 +147,8 @@ TEST_CASE("contact solver: a cantilever's tip on a floor keeps its shape and giv
     REQUIRE(eq.ok());
     double carried = 0;
     for (const ContactForce& contact : eq.contacts) carried += contact.force.z();
-    // The overlap that is left, at most 1e-3 radii, moves the touch force by its stiffness, at most 9 EI/L^3.
-    CHECK(carried == Approx(load - ref.touch_force * bending).margin(9 * bending * 1.1e-3 * radius));
+    // The overlap or gap that is left, at most 1e-3 radii, moves the touch force by its stiffness, at most 11 EI/L^3.
+    CHECK(carried == Approx(load - ref.touch_force * bending).margin(11 * bending * 1.1e-3 * radius));
     CHECK(eq.points.back().x() == Approx(ref.tip_x).margin(2e-5));
     CHECK(eq.points.back().z() == Approx(-ref.drop).margin(1.1e-3 * radius));
     const Vec3 tangent = eq.rotations.back() * Vec3::UnitZ();
