@@ -60,6 +60,7 @@ Chord chord_of(const RodProblem& problem) {
 }
 
 std::vector<Frame> guess(RodProblem problem, RodMesh mesh, const Chord& chord, const SpanVariant& variant) {
+  problem.rod.shape = nullptr;  // a preformed rod is guessed as if straight once its own shape is in the way
   if (variant.turn != 0) {
     // Without gravity the bulge has no preferred side to be turned from.
     const Vec3 down = problem.gravity.isZero(0) ? Vec3(chord.along.unitOrthogonal()) : problem.gravity;
@@ -146,7 +147,7 @@ class Search {
 void clear_rod(const RodProblem& problem, const RodMesh& mesh, const std::vector<Frame>& usual, Search& search) {
   if (search.done() || mesh.hold_vertex.empty()) return;
   const Chord chord = chord_of(problem);
-  const bool spans_vary = chord.held > 0 && !chord.along.isZero(0) && !problem.rod.shape;
+  const bool spans_vary = chord.held > 0 && !chord.along.isZero(0);
   std::vector<Frame> frames = usual;
   for (std::size_t k = 1; spans_vary && k < span_variants.size() && !search.done(); ++k) {
     std::vector<Frame> other = guess(problem, mesh, chord, span_variants[k]);

@@ -338,8 +338,10 @@ ContactCase preformed_case(std::mt19937_64& random, const MakeField& make) {
   ContactCase one = box_edge_case(random, make);
   const double curvature = uniform(random, -3, 3);
   one.problem.rod.shape = [=](double s) {
-    return Frame{Vec3::Zero(), exp_rotation(Vec3(0, curvature * s, 0))} *
-           Frame{Vec3(0, 0, s * (1 - curvature * curvature * s * s / 6)), Quat::Identity()};
+    const double turn = curvature * s;
+    const double across = std::abs(turn) < 1e-6 ? 0.5 * turn * s : (1 - std::cos(turn)) / curvature;
+    const double along = std::abs(turn) < 1e-6 ? s : std::sin(turn) / curvature;
+    return Frame{Vec3(across, 0, along), exp_rotation(Vec3(0, turn, 0))};
   };
   return one;
 }
