@@ -38,6 +38,8 @@ class Elimination {
   int link_between(int from, int to) const;
 
  private:
+  void eliminate_chain(const BlockPattern& pattern);
+
   std::vector<Column> columns_;
   std::vector<Link> links_;
   std::vector<Source> sources_;

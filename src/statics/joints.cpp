@@ -22,6 +22,7 @@ bool has_lever(const Joints::Joint& joint) { return (joint.part & held_position)
 }  // namespace
 
 Joints::Joints(std::vector<Joint> joints, BlockPattern& pattern) : joints_(std::move(joints)) {
+  if (joints_.empty()) return;
   std::vector<std::vector<int>> at_node(pattern.nodes);
   for (int e = 0; e < static_cast<int>(pattern.edges.size()); ++e)
     if (pattern.edges[e].a >= 0)
