@@ -83,7 +83,7 @@ void Elimination::eliminate_chain(const BlockPattern& pattern) {
   sources_.reserve(pattern.nodes);
   bool coupled = false;  // with the node before
   for (int p = 0; p < pattern.nodes; ++p) {
-    Column column{p, static_cast<int>(links_.size()), 0, coupled, false};
+    Column column{p, static_cast<int>(links_.size()), 0, false, coupled};
     coupled = pattern.edges[p].a >= 0;
     if (coupled) {
       links_.push_back({p + 1, static_cast<int>(sources_.size()), static_cast<int>(sources_.size()) + 1, false});
