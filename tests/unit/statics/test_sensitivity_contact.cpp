@@ -30,7 +30,7 @@ struct Touching {
     state = solver.clear_start();
     if (solver.run(state, nullptr, {}).newton.status != Status::solved) return;
     Equilibrium found;
-    solver.describe(state, found);
+    solver.describe(state, 0, found);
     forces = found.contacts;
     solver.terms().take_forces(forces);
     shifts = solver.terms().set().shifts();
