@@ -12,6 +12,7 @@ namespace tendril {
 namespace {
 
 constexpr double soft = 0.1, hard = 0.01;            // overlap under the reference force, in radii
+constexpr double other_hardness[] = {0.03, 0.004};     // a stalled run is tried again from the start with these
 constexpr double soft_tolerance = 2e-2;
 constexpr double hard_step = 0.02, loose_step = 2e-3;  // radii: what may be left of a step before the first update, later
 constexpr double slow = 0.4, hardening = 4;          // an overlap that falls less than this makes the law so much stiffer
@@ -101,11 +102,29 @@ void ContactSolver::remove_overlap(RodState& state, ContactOutcome& out, const R
 RodState ContactSolver::clear_start() { return tendril::clear_start(*network_, terms_).state; }
 
 ContactOutcome ContactSolver::run(RodState& state, const SystemEquilibrium* from, const RunContext& context) {
-  ContactOutcome out;
   used_ = 0;
+  ContactOutcome out = attempt(state, from, hard, context);
+  for (const double other : other_hardness) {
+    if (out.newton.status != Status::stalled || over(out)) break;
+    RodState trial = clear_start();
+    ContactOutcome again = attempt(trial, nullptr, other, context);
+    again.fallbacks += out.fallbacks + 1;
+    if (again.newton.status == Status::stalled && again.deepest > out.deepest) {
+      out.newton.iterations = used_;
+      continue;
+    }
+    out = std::move(again);
+    state = std::move(trial);
+  }
+  return out;
+}
+
+ContactOutcome ContactSolver::attempt(RodState& state, const SystemEquilibrium* from, double hardness,
+                                      const RunContext& context) {
+  ContactOutcome out;
   const RodState start = state;
   terms_.forget_forces();
-  terms_.set_softness(hard);
+  terms_.set_softness(hardness);
   if (const auto crossing = terms_.first_crossing(state))
     out.message = "the start crosses an obstacle at " + place_of(*crossing->rod, crossing->s);
 
@@ -117,7 +136,7 @@ ContactOutcome ContactSolver::run(RodState& state, const SystemEquilibrium* from
     terms_.set_early_end(true);
     out.newton = stage(state, Start::cold, soft_tolerance, soft_iterations, false, context);
     terms_.set_early_end(false);
-    terms_.set_softness(hard);
+    terms_.set_softness(hardness);
   }
   if (!over(out) && !(from && out.newton.status == Status::solved)) settle(state, start, out, context);
   remove_overlap(state, out, context);

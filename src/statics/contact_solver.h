@@ -53,6 +53,7 @@ class ContactSolver {
   Newton& newton() { return newton_; }
 
  private:
+  ContactOutcome attempt(RodState& state, const SystemEquilibrium* from, double hardness, const RunContext& context);
   enum class Start { cold, warm };
   NewtonOutcome stage(RodState& state, Start start, double tolerance, int most_iterations, bool descend,
                       const RunContext& context);
