@@ -4,6 +4,7 @@
 
 #include "binding/bind_gradient.h"
 #include "binding/examples.h"
+#include "binding/card.h"
 #include "binding/scene_cards.h"
 #include "binding/lua_class.h"
 #include "binding/open.h"
@@ -122,6 +123,22 @@ void bind_values(lua_State* L) {
       .tostring(describe_contact);
 }
 
+void bind_supports(lua_State* L) {
+  Class<Reaction>(L, "What a hold or a branch point does to a rod")
+      .property("s", "m", "Arc length; of a slide clip: where the rod has settled in it", [](const Reaction& r) { return r.s; })
+      .property("force", "N", "On the rod, world axes", [](const Reaction& r) { return r.force; })
+      .property("moment", "N m", "On the rod, about its centre line there, world axes", [](const Reaction& r) { return r.moment; })
+      .tostring([](const Reaction& r) {
+        return "support at s = " + quantity(r.s, "m") + ": " + quantity(r.force.norm(), "N") + ", " + quantity(r.moment.norm(), "N m");
+      });
+  Class<SolvedBranch>(L, "One branch point in equilibrium")
+      .property("name", "", "Its name in the scene", [](const SolvedBranch& b) { return b.name; })
+      .property("frame", "", "Where it is", [](const SolvedBranch& b) { return b.frame; })
+      .property("force", "N", "Of what holds it, world axes; zero where it is free", [](const SolvedBranch& b) { return b.support.force; })
+      .property("moment", "N m", "Of what holds it, about its place, world axes", [](const SolvedBranch& b) { return b.support.moment; })
+      .tostring([](const SolvedBranch& b) { return "branch point '" + b.name + "' in equilibrium"; });
+}
+
 void bind_solved_rod(lua_State* L) {
   Class<SolvedRodHandle>(L, "One rod in equilibrium")
       .property("name", "", "Its name in the scene", [](const SolvedRodHandle& r) { return r.rod().name; })
@@ -142,6 +159,8 @@ void bind_solved_rod(lua_State* L) {
       .property("length", "m", "Of the deformed centre line", [](const SolvedRodHandle& r) { return r.rod().equilibrium.settled_length(); })
       .property("clearance", "m", "Smallest gap to any obstacle",
                 [](const SolvedRodHandle& r) { return clearance_value(*r.equilibrium, r.rod(), r.equilibrium->clearance(r.rod())); })
+      .property("supports", "", "What its holds, in the order they were given, and branch points do to it",
+                [](const SolvedRodHandle& r) { return r.rod().equilibrium.reactions; })
       .property("contacts", "", "Forces of the surroundings on it", [](const SolvedRodHandle& r) { return contacts_of(*r.equilibrium, r.rod()); })
       .method("at", {.takes = {"s"}, .does = "The section's frame at an arc length in m.",
                          .example = with_equilibrium("print(eq:rod(\"hose\"):at(0.5).at)")},
@@ -158,6 +177,7 @@ void bind_solved_rod(lua_State* L) {
 
 void bind_equilibrium(lua_State* L) {
   bind_values(L);
+  bind_supports(L);
   bind_solved_rod(L);
   Class<SceneEquilibrium>(L, "A scene in static equilibrium, as it was when it was solved")
       .property("ok", "", "Every rod is solved", [](const SceneEquilibrium& e) { return e.ok(); })
@@ -169,6 +189,14 @@ void bind_equilibrium(lua_State* L) {
       .property("iterations", "", "Newton steps, all rods", [](const SceneEquilibrium& e) { return e.iterations(); })
       .property("residual", "N", "Largest unbalanced force, or moment over length", [](const SceneEquilibrium& e) { return e.residual(); })
       .property("stable", "", "No negative eigenvalue", [](const SceneEquilibrium& e) { return e.stable(); })
+      .property("modes", "", "Other stable equilibria for the same holds, by growing energy; nil unless solved with modes = true",
+                [](const SceneEquilibrium& e) { return e.modes ? std::optional(e.modes->others) : std::nullopt; })
+      .property("eigenvalues", "", "Softest first: stiffness against the softest disturbances, a pure number (EI/L^2 times a turn's "
+                                   "share of the length); negative: unstable; nil unless solved with modes = true",
+                [](const SceneEquilibrium& e) { return e.modes ? std::optional(e.modes->eigenvalues) : std::nullopt; })
+      .property("softest_mode", "", "By rod: how far the vertices move (m) along the softest disturbance; nil unless solved with "
+                                    "modes = true",
+                [](const SceneEquilibrium& e) { return e.modes ? std::optional(e.modes->softest) : std::nullopt; })
       .property("deepest_penetration", "m", "0 without contact", [](const SceneEquilibrium& e) { return e.deepest_penetration(); })
       .property("error", "m", "Estimated discretisation error; nil unless solved with error = true",
                 [](const SceneEquilibrium& e) -> std::optional<ErrorValue> {
@@ -191,14 +219,18 @@ void bind_equilibrium(lua_State* L) {
       .method("rod", {.takes = {"name"}, .does = "One rod in equilibrium.",
                          .example = with_equilibrium("print(eq:rod(\"hose\").min_bend_radius / units.mm)")},
               [](Eq e, const std::string& name) { return SolvedRodHandle{e, index_of(*e, name)}; })
-      .method("force", {.takes = {"name", "where"}, .does = "Force (N, world axes) of the support on the rod at a hold.",
+      .method("branch", {.takes = {"name"}, .does = "One branch point in equilibrium.",
+                         .example = with_hose("s:branch(\"end\", {{\"hose\", \"finish\"}})\n"
+                                              "print(s:solve{}:branch(\"end\").frame.at)")},
+              [](const SceneEquilibrium& e, const std::string& name) { return e.branch(name); })
+      .method("force", {.takes = {"name", "where"}, .does = "Force (N, world axes) of the support or branch point on the rod at a hold or joint.",
                          .example = with_equilibrium("print(eq:force(\"hose\", \"start\"))")},
               [](const SceneEquilibrium& e, const std::string& name, const Where& where) {
                 const SolvedRod& rod = e.rod(name);
                 return e.reaction(rod, place_on(rod, where)).force;
               })
       .method("moment", {.takes = {"name", "where"},
-                         .does = "Moment (N m, world axes, about the centre line) of the support on the rod at a hold.",
+                         .does = "Moment (N m, world axes, about the centre line) of the support or branch point on the rod at a hold or joint.",
                          .example = with_equilibrium("print(eq:moment(\"hose\", \"finish\"))")},
               [](const SceneEquilibrium& e, const std::string& name, const Where& where) {
                 const SolvedRod& rod = e.rod(name);

@@ -1,4 +1,6 @@
 // scene: the world. Obstacles, rods in their places, loads, and the solve.
+#include "binding/bind_branch.h"
+#include "binding/bind_motion.h"
 #include "binding/bind_obstacle.h"
 #include "binding/examples.h"
 #include "binding/lua_class.h"
@@ -6,6 +8,7 @@
 #include "binding/scene_cards.h"
 #include "binding/scene_classes.h"
 #include "binding/solve_options.h"
+#include "scene/scene_modes.h"
 
 namespace tendril::lua {
 namespace {
@@ -36,6 +39,14 @@ Schema hold_options() {
   };
 }
 
+Schema clip_options() {
+  return {
+      option<std::string>("kind", "", "What it holds: everything, the position only, or everything but sliding along d3")
+          .one_of({"fixed", "swivel", "slide"}).preset("fixed"),
+      option<double>("turns", "", "Extra full turns about the tangent relative to the start").preset(0),
+  };
+}
+
 Schema load_options() {
   return {
       option<Vec3>("force", "N", "Dead force, world axes"),
@@ -62,6 +73,22 @@ void bind_placed_rod(lua_State* L) {
                 hold.frame = frame;
                 hold.position = o.get<bool>("position");
                 hold.orientation = o.get<bool>("orientation");
+                hold.turns = o.get<double>("turns");
+                p->rod().hold(hold);
+                return p;
+              })
+      .method("clip",
+              {.takes = {"where", "frame"}, .options = clip_options(),
+               .does = "A clip at \"start\", \"finish\" or an arc length in m. Through a slide clip the rod slips without friction "
+                       "along d3: the arc length is where the search begins, and the equilibrium tells where it settles.",
+               .example = with_hose("p:clip(0.5, frame{at = {0.45, 0, -0.1}, along = {1, 0, 0}}, {kind = \"slide\"})\n"
+                                    "print(s:solve{}:rod(\"hose\").supports[3].s)")},
+              [](std::shared_ptr<PlacedRodHandle> p, const Where& where, const Frame& frame, const Options& o) {
+                Hold hold;
+                hold.at = place_of(p->rod(), where);
+                hold.frame = frame;
+                hold.orientation = o.get<std::string>("kind") != "swivel";
+                hold.slide = o.get<std::string>("kind") == "slide";
                 hold.turns = o.get<double>("turns");
                 p->rod().hold(hold);
                 return p;
@@ -97,7 +124,9 @@ void bind_placed_rod(lua_State* L) {
 
 SceneEquilibrium solved(lua_State* L, const Scene& scene, const Options& o) {
   const SceneEquilibrium* from = o.find<SceneEquilibrium>("from");
-  return scene.solve(solve_options(o), run_context(L, o), from);
+  SceneEquilibrium found = scene.solve(solve_options(o), run_context(L, o), from);
+  if (o.get<bool>("modes")) find_modes(found, solve_options(o), run_context(L, o));
+  return found;
 }
 
 std::vector<std::string> rod_names(const Scene& scene) {
@@ -113,8 +142,10 @@ std::vector<std::string> obstacle_names(const Scene& scene) {
 }
 
 void bind_scene_class(lua_State* L) {
-  Class<Scene>(L, "The world: gravity, obstacles and rods")
-      .property("gravity", "m/s^2", "Acceleration", [](const Scene& s) { return s.gravity(); })
+  Class<Scene> world(L, "The world: gravity, obstacles, rods and branch points");
+  add_branch_to(world);
+  add_motion_to(world);
+  world.property("gravity", "m/s^2", "Acceleration", [](const Scene& s) { return s.gravity(); })
       .property("rods", "", "Names of the rods", rod_names)
       .property("obstacles", "", "Names of the obstacles", obstacle_names)
       .method("obstacle",
@@ -139,7 +170,7 @@ void bind_scene_class(lua_State* L) {
                 s->rod(name);
                 return PlacedRodHandle{s, name};
               })
-      .method("remove", {.takes = {"name"}, .does = "Removes a rod or an obstacle.",
+      .method("remove", {.takes = {"name"}, .does = "Removes a rod, a branch point or an obstacle.",
                          .example = with_hose("s:remove(\"hose\")")},
               [](std::shared_ptr<Scene> s, const std::string& name) {
                 s->remove(name);
@@ -147,7 +178,9 @@ void bind_scene_class(lua_State* L) {
               })
       .method("solve",
               {.options = solve_schema() +
-                          Schema{option<SceneEquilibrium>("from", "", "Start from this equilibrium of a similar scene")} +
+                          Schema{option<SceneEquilibrium>("from", "", "Start from this equilibrium of a similar scene"),
+                                 option<bool>("modes", "", "Also the softest eigenmodes, and other stable equilibria for the same "
+                                                           "holds").preset(false)} +
                           timeout_schema(),
                .does = "Static equilibrium of every rod. Look at .ok: what does not converge is a result, not an error.",
                          .example = with_hose("local eq = s:solve{}\nprint(eq.ok, eq.status)  --> true solved")},

@@ -12,6 +12,8 @@ void open_tendril(lua_State* L) {
   bind_rod(L);
   bind_curve(L);
   bind_scene(L);
+  bind_branch(L);
+  bind_motion(L);
   bind_equilibrium(L);
   bind_gradient(L);
   bind_view(L);

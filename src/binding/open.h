@@ -15,6 +15,8 @@ void bind_frame(lua_State* L);
 void bind_rod(lua_State* L);
 void bind_curve(lua_State* L);
 void bind_scene(lua_State* L);
+void bind_branch(lua_State* L);
+void bind_motion(lua_State* L);
 void bind_equilibrium(lua_State* L);
 void bind_gradient(lua_State* L);
 void bind_view(lua_State* L);

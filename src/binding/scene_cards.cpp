@@ -74,7 +74,10 @@ std::string describe_placed(const PlacedRod& rod) {
   Card card("placed rod '" + rod.name() + "'");
   card.row("length", rod.rod().length, "m");
   for (const Hold& hold : rod.holds()) {
-    const char* what = hold.position && hold.orientation ? "clamped" : hold.position ? "pinned" : "orientation held";
+    const char* what = hold.slide                          ? "slides through"
+                       : hold.position && hold.orientation ? "clamped"
+                       : hold.position                     ? "pinned"
+                                                           : "orientation held";
     std::string note = "at " + place(hold.frame.at);
     if (hold.turns != 0) note += ", " + plain_number(hold.turns) + " extra turns";
     card.row(rod.describe(hold.at), what, note);
@@ -89,6 +92,9 @@ std::string describe_scene(const Scene& scene) {
   for (const auto& rod : scene.rods())
     card.row("rod '" + rod->name() + "'", quantity(rod->rod().length, "m"),
              count(rod->holds().size(), "hold", "holds") + ", " + count(rod->loads().size(), "load", "loads"));
+  for (const auto& branch : scene.branches())
+    card.row("branch point '" + branch->name + "'", count(branch->places.size(), "section", "sections"),
+             branch->position || branch->orientation ? "held" : "free");
   for (const PlacedObstacle& obstacle : scene.obstacles()) {
     const std::size_t triangles = obstacle.triangles();
     card.row("obstacle '" + obstacle.name + "'", triangles ? count(triangles, "triangle", "triangles") : "solid",

@@ -10,6 +10,7 @@
 #include "scene/explain.h"
 #include "scene/scene.h"
 #include "scene/scene_gradient.h"
+#include "scene/scene_motion.h"
 #include "view/chart.h"
 
 namespace tendril::lua {
@@ -19,6 +20,13 @@ struct PlacedRodHandle {
   std::shared_ptr<Scene> scene;
   std::string name;
   PlacedRod& rod() const { return scene->rod(name); }
+};
+
+/// A branch point of a scene, by name.
+struct PlacedBranchHandle {
+  std::shared_ptr<Scene> scene;
+  std::string name;
+  PlacedBranch& branch() const { return scene->branch(name); }
 };
 
 /// One rod of an equilibrium.
@@ -63,7 +71,12 @@ template <> inline constexpr const char* class_name<Curve> = "curve";
 template <> inline constexpr const char* class_name<Scene> = "scene";
 template <> inline constexpr const char* class_name<SolidValue> = "solid";
 template <> inline constexpr const char* class_name<PlacedRodHandle> = "placed_rod";
+template <> inline constexpr const char* class_name<PlacedBranchHandle> = "placed_branch";
 template <> inline constexpr const char* class_name<SceneEquilibrium> = "equilibrium";
+template <> inline constexpr const char* class_name<SceneMotion> = "motion";
+template <> inline constexpr const char* class_name<SceneSnap> = "snap_through";
+template <> inline constexpr const char* class_name<SolvedBranch> = "solved_branch";
+template <> inline constexpr const char* class_name<Reaction> = "support";
 template <> inline constexpr const char* class_name<SolvedRodHandle> = "solved_rod";
 template <> inline constexpr const char* class_name<Energy> = "energy";
 template <> inline constexpr const char* class_name<ClearanceValue> = "clearance";

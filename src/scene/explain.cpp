@@ -28,7 +28,10 @@ void explain_holds(const PlacedRod& rod, std::vector<ExplainedItem>& out) {
   std::string text;
   double turns = 0;
   for (const Hold& hold : rod.holds()) {
-    const char* what = hold.position && hold.orientation ? "clamped" : hold.position ? "pinned" : "turned (orientation only)";
+    const char* what = hold.slide                          ? "slides through a clip"
+                       : hold.position && hold.orientation ? "clamped"
+                       : hold.position                     ? "pinned"
+                                                           : "turned (orientation only)";
     text += (text.empty() ? "" : ", ") + std::string(what) + " at " + rod.describe(hold.at);
     if (hold.turns != 0) turns = hold.turns;
   }

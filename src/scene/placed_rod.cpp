@@ -71,6 +71,9 @@ void PlacedRod::hold(const Hold& wanted) {
     throw UsageError("placed_rod:hold: neither position nor orientation of '" + name_ + "' at " + describe(wanted.at) +
                      " is held; use release to remove a hold");
   const auto old = find(wanted.at);
+  if (wanted.slide && (wanted.at <= same_place * rod_.length || wanted.at >= (1 - same_place) * rod_.length))
+    throw UsageError("placed_rod:clip: '" + name_ + "' cannot slide through a clip at " + describe(wanted.at) +
+                     "; give the arc length inside the rod where the search shall begin");
   if (old == holds_.end()) {
     holds_.push_back(wanted);
     return;

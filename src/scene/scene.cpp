@@ -72,14 +72,14 @@ PlacedRod& Scene::add(PlacedRod rod) {
   return *rods_.back();
 }
 
-PlacedBranch& Scene::add(PlacedBranch branch) {
-  check_free(branch.name, "scene:branch");
-  for (const JoinedPlace& place : branch.places)
+PlacedBranch& Scene::join(std::string name, const std::vector<BranchPlace>& places, const std::optional<Frame>& held) {
+  check_free(name, "scene:branch");
+  for (const BranchPlace& place : places)
     for (const auto& other : branches_)
-      if (other->joins(place.rod, place.at, 1e-9 * rod(place.rod).rod().length))
-        throw UsageError("scene:branch: '" + place.rod + "' belongs to branch point '" + other->name + "' at " +
-                         rod(place.rod).describe(place.at) + " already");
-  branches_.push_back(std::make_unique<PlacedBranch>(std::move(branch)));
+      if (other->joins(place.rod->name(), place.at, 1e-9 * place.rod->rod().length))
+        throw UsageError("scene:branch: '" + place.rod->name() + "' belongs to branch point '" + other->name + "' at " +
+                         place.rod->describe(place.at) + " already");
+  branches_.push_back(std::make_unique<PlacedBranch>(make_branch(std::move(name), places, held)));
   return *branches_.back();
 }
 

@@ -30,8 +30,9 @@ class Scene {
   void add(PlacedObstacle obstacle);
   /// Throws UsageError for a name that is taken.
   PlacedRod& add(PlacedRod rod);
-  /// Throws UsageError for a name that is taken, and a place that belongs to another branch point.
-  PlacedBranch& add(PlacedBranch branch);
+  /// Joins places of rods to a rigid branch point (see make_branch), held at `held` or free. Throws UsageError, and changes
+  /// nothing, for a name that is taken and a place that belongs to another branch point.
+  PlacedBranch& join(std::string name, const std::vector<BranchPlace>& places, const std::optional<Frame>& held);
   /// Removes an obstacle, a rod or a branch point. Throws UsageError for an unknown name, with the nearest, and for a rod
   /// that belongs to a branch point.
   void remove(std::string_view name);

@@ -121,7 +121,12 @@ std::optional<SystemEquilibrium> SceneEquilibrium::part(const SceneEquilibrium& 
 }
 
 void SceneEquilibrium::take(SystemEquilibrium solved, const std::vector<int>& rod_numbers, const std::vector<int>& branch_numbers) {
-  for (std::size_t i = 0; i < rod_numbers.size(); ++i) rods[rod_numbers[i]].equilibrium = std::move(solved.rods[i]);
+  for (std::size_t i = 0; i < rod_numbers.size(); ++i) {
+    SolvedRod& rod = rods[rod_numbers[i]];
+    rod.equilibrium = std::move(solved.rods[i]);
+    for (std::size_t h = 0; h < rod.problem.holds.size() && h < rod.equilibrium.reactions.size(); ++h)
+      if (rod.problem.holds[h].slide) rod.problem.holds[h].at = rod.equilibrium.reactions[h].s;
+  }
   for (std::size_t i = 0; i < branch_numbers.size(); ++i) {
     branches[branch_numbers[i]].frame = solved.branches[i];
     branches[branch_numbers[i]].support = solved.branch_supports[i];

@@ -1,7 +1,9 @@
 // The answer of a scene's solve: one equilibrium a rod, and what is measured on them.
 #pragma once
 
+#include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -34,6 +36,15 @@ struct SolvedSystem {
   std::vector<int> rods, branches;
 };
 
+struct SceneEquilibrium;
+
+/// What a search for modes found; see scene_modes.h.
+struct SceneModes {
+  std::vector<double> eigenvalues;                          ///< softest first
+  std::map<std::string, std::vector<Vec3>> softest;         ///< by rod: moves of its vertices, m, along the softest mode
+  std::vector<std::shared_ptr<SceneEquilibrium>> others;    ///< other stable equilibria, by growing energy
+};
+
 /// A scene (or rather a picture taken of it when it was solved: later changes of the scene do not show here) in static
 /// equilibrium. Immutable once made.
 struct SceneEquilibrium {
@@ -44,6 +55,7 @@ struct SceneEquilibrium {
   std::shared_ptr<const Surroundings> surroundings;  ///< null without obstacles
   double seconds = 0;            ///< all rods, without building the obstacles' trees
   double seconds_for_trees = 0;
+  std::optional<SceneModes> modes;  ///< where they were asked for
 
   bool ok() const { return status() == Status::solved; }
   Status status() const;          ///< the worst of the rods': cancelled, timeout, infeasible, stalled, solved

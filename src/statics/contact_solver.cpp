@@ -178,12 +178,16 @@ std::string ContactSolver::place_of(const ContactNetwork::Rod& rod, double s) co
   return text("s = %.4g m", s) + (network_->rods() > 1 ? " of rod " + std::to_string(rod.index + 1) : "");
 }
 
+void ContactSolver::add_exact(const RodState& state, BlockSystem& system) {
+  for (const ContactNetwork::Rod& rod : terms_.rods()) rod.terms->add_to(state, true, system);
+}
+
 void ContactSolver::add_gradient(const RodState& state, std::vector<Vec6>& gradient) {
   scratch_.resize(network_->nodes(), static_cast<int>(network_->pattern().edges.size()));
   for (Vec6& g : scratch_.gradient) g.setZero();
   for (Mat6& block : scratch_.diagonal) block.setZero();
   for (Mat6& block : scratch_.upper) block.setZero();
-  for (const ContactNetwork::Rod& rod : terms_.rods()) rod.terms->add_to(state, true, scratch_);
+  add_exact(state, scratch_);
   for (int i = 0; i < network_->nodes(); ++i) gradient[i] += scratch_.gradient[i];
 }
 

@@ -42,6 +42,9 @@ class ContactSolver {
   /// One Newton run on a given penalty law, without updates: for comparison with penalty models.
   ContactOutcome run_penalty(RodState& state, double stiffness, const RunContext& context);
 
+  /// Adds gradient and exact second derivative of contact at a state to a system.
+  void add_exact(const RodState& state, BlockSystem& system);
+
   /// Adds the contact forces' part of the gradient to that of the rod.
   void add_gradient(const RodState& state, std::vector<Vec6>& gradient);
 

@@ -99,6 +99,18 @@ ErrorEstimate compare(const RodProblem& problem, const SolveOptions& options, co
   return estimate;
 }
 
+/// Sliding sections held where they have come to rest.
+SystemProblem with_clips_settled(const SystemProblem& problem, const SystemEquilibrium& solution) {
+  SystemProblem settled = problem;
+  for (std::size_t k = 0; k < settled.rods.size(); ++k)
+    for (std::size_t h = 0; h < settled.rods[k].holds.size(); ++h) {
+      Hold& hold = settled.rods[k].holds[h];
+      if (hold.slide && hold.cut_at < 0) hold.cut_at = hold.at;
+      if (hold.slide) hold.at = solution.rods[k].reactions[h].s;
+    }
+  return settled;
+}
+
 bool any_surroundings(const SystemProblem& problem) {
   return std::any_of(problem.rods.begin(), problem.rods.end(), [](const RodProblem& rod) { return rod.surroundings; });
 }
@@ -110,7 +122,8 @@ void estimate_errors(const SystemProblem& problem, const SolveOptions& options, 
   SolveOptions plain = options;
   plain.error = false;
   plain.tolerance = std::min(1e-12, options.tolerance);  // differences of meshes must not drown in unfinished iterations
-  NetworkSolver twice(problem, plain, 2), four_times(problem, plain, 4);
+  const SystemProblem settled = with_clips_settled(problem, solution);
+  NetworkSolver twice(settled, plain, 2), four_times(settled, plain, 4);
   // In contact a warm start would carry the contact forces over, and with them the error that is looked for.
   const bool warm = !any_surroundings(problem);
   const SystemEquilibrium finer = twice.solve(context, warm ? &solution : nullptr);

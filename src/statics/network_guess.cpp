@@ -3,6 +3,7 @@
 #include <Eigen/SVD>
 #include <algorithm>
 
+#include "base/units.h"
 #include "statics/block_ldlt.h"
 #include "statics/first_guess.h"
 
@@ -158,6 +159,21 @@ void turn_branches(const SystemProblem& problem, const std::vector<Span>& spans,
   }
 }
 
+/// Turns the side to which the slack falls, and adds turns to the last section whose orientation is held.
+void vary(const GuessVariant& variant, RodProblem& rod) {
+  const auto earlier = [](const Hold& a, const Hold& b) { return a.at < b.at; };
+  const auto [first, last] = std::minmax_element(rod.holds.begin(), rod.holds.end(), earlier);
+  const Vec3 chord = last->frame.at - first->frame.at;
+  if (chord.norm() > 0) {
+    const Vec3 along = chord.normalized();
+    const Vec3 down = rod.gravity.isZero(0) ? Vec3(first->frame.d1()) : rod.gravity;
+    const Vec3 across = down - along * along.dot(down);
+    rod.gravity = Eigen::AngleAxisd(variant.bulge * units::deg, along) *
+                  (across.norm() > 1e-6 * down.norm() ? across : Vec3(along.unitOrthogonal()));
+  }
+  if (last->orientation) last->turns += variant.turns;
+}
+
 }  // namespace
 
 void hold_at_branches(const RodNetwork& network, const NetworkGuess& guess, int rod, RodProblem& problem, RodMesh& mesh) {
@@ -171,7 +187,7 @@ void hold_at_branches(const RodNetwork& network, const NetworkGuess& guess, int 
     }
 }
 
-NetworkGuess network_guess(const RodNetwork& network) {
+NetworkGuess network_guess(const RodNetwork& network, const GuessVariant& variant) {
   const SystemProblem& problem = network.problem();
   NetworkGuess guess;
   for (const BranchPoint& branch : problem.branches) guess.branches.push_back(branch.frame);
@@ -181,13 +197,14 @@ NetworkGuess network_guess(const RodNetwork& network) {
     turn_branches(problem, spans, guess.branches);
   }
   for (int k = 0; k < network.rods(); ++k) {
-    if (problem.branches.empty()) {
+    if (problem.branches.empty() && variant.rod != k) {
       guess.rods.push_back(first_guess(problem.rods[k], network.rod(k).mesh()));
       continue;
     }
     RodProblem held = problem.rods[k];
     RodMesh mesh = network.rod(k).mesh();
     hold_at_branches(network, guess, k, held, mesh);
+    if (variant.rod == k) vary(variant, held);
     guess.rods.push_back(first_guess(held, mesh));
   }
   return guess;

@@ -183,6 +183,11 @@ NewtonOutcome NetworkSolver::with_fallbacks(RodState& state, bool warm, const Ru
     outcome.iterations += spent;
     return outcome;
   }
+  if (options_.follow) {
+    ++fallbacks;
+    attempt(true, options_.max_iterations, true);
+    return outcome;
+  }
   // B: by way of the staggered element.
   if (options_.element == Element::se3 && !staggered_first) {
     ++fallbacks;
@@ -288,13 +293,29 @@ NewtonOutcome NetworkSolver::load_in_steps(RodState& state, const RunContext& co
   return outcome;
 }
 
+/// Vertices at the same arc lengths: a rod that has become longer or has slid begins without the stress of its stretching.
+bool NetworkSolver::on_same_mesh(const SystemEquilibrium& from) const {
+  for (int k = 0; k < network_->rods(); ++k) {
+    const std::vector<double>& s = network_->rod(k).mesh().s;
+    if (from.rods[k].s.size() != s.size()) return false;
+    for (std::size_t i = 0; i < s.size(); ++i)
+      if (std::abs(from.rods[k].s[i] - s[i]) > 1e-12 * s.back()) return false;
+  }
+  return true;
+}
+
 SystemEquilibrium NetworkSolver::solve(const RunContext& context, const SystemEquilibrium* from) {
-  if (from && (from->rods.size() != network_->problem().rods.size() || !from->complete())) from = nullptr;
+  if (from && (from->rods.size() != network_->problem().rods.size() ||
+               from->branches.size() != network_->problem().branches.size() || !from->complete()))
+    from = nullptr;
   if (contact_) return solve_in_contact(context, from);
+  return solve_from(starting_state(from), from && on_same_mesh(*from), context);
+}
+
+SystemEquilibrium NetworkSolver::solve_from(RodState state, bool warm, const RunContext& context) {
   SystemEquilibrium out;
-  RodState state = starting_state(from);
   int fallbacks = 0;
-  const NewtonOutcome outcome = with_fallbacks(state, from != nullptr, context, fallbacks);
+  const NewtonOutcome outcome = with_fallbacks(state, warm, context, fallbacks);
   const bool solved = outcome.status == Status::solved, substituted = solved && substitute_;
   if (substituted)
     out = std::move(*substitute_);
@@ -307,6 +328,13 @@ SystemEquilibrium NetworkSolver::solve(const RunContext& context, const SystemEq
               out);
   for (Equilibrium& rod : out.rods) rod.fallbacks = fallbacks;
   return out;
+}
+
+void NetworkSolver::assemble_exact(const RodState& state, StepSystem& linear) {
+  network_->assemble(state, Stress::actual, linear.block);
+  if (contact_) contact_->add_exact(state, linear.block);
+  network_->join(state, Stress::actual, linear.block);
+  linear.take_out_held(state);
 }
 
 void NetworkSolver::describe(const RodState& state, SystemEquilibrium& out) {

@@ -24,6 +24,12 @@ class NetworkSolver {
   /// The state that solve() starts from.
   RodState starting_state(const SystemEquilibrium* from) const;
 
+  /// The whole way, fallbacks included, from a state.
+  SystemEquilibrium solve_from(RodState state, bool warm, const RunContext& context);
+
+  /// The exact second derivative at a state, contact included, held unknowns taken out; not yet factorised.
+  void assemble_exact(const RodState& state, StepSystem& linear);
+
   /// Fills everything but status, message and counts.
   void describe(const RodState& state, SystemEquilibrium& out);
 
@@ -31,6 +37,7 @@ class NetworkSolver {
   RodNetwork& network() { return *network_; }
 
  private:
+  bool on_same_mesh(const SystemEquilibrium& from) const;
   NewtonOutcome with_fallbacks(RodState& state, bool warm, const RunContext& context, int& fallbacks);
   /// The staggered element copes with segments too long for the tension in them. Its solution starts this element, or
   /// stands in for it (substitute_) where the segments are too long indeed.

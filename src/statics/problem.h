@@ -18,6 +18,8 @@ struct Hold {
   double turns = 0;  ///< extra full turns about the tangent relative to the start: a frame alone cannot tell 0 from 360 degrees
   /// The rod slips through without friction along d3: `at` is where the search begins, the arc length there an unknown.
   bool slide = false;
+  /// Where a sliding section was when the rod was cut into segments: their number on both sides stays. Negative: at `at`.
+  double cut_at = -1;
 };
 
 /// A dead load (constant in world axes) on the section at arc length `at`: force in N, moment in N m.
@@ -79,6 +81,7 @@ struct SolveOptions {
   int max_iterations = 2000; ///< over all stages and fallbacks
   bool stable_only = true;   ///< leave saddles; false: take the equilibrium nearest to the start
   bool error = false;        ///< also estimate the discretisation error
+  bool follow = false;       ///< where a warm start does not lead on, run down the energy from it instead of starting anew
 };
 
 }  // namespace tendril

@@ -6,10 +6,11 @@
 namespace tendril {
 namespace {
 
-std::vector<double> breaks_of(const RodProblem& problem, const std::vector<double>& joined) {
+/// `as_cut`: sliding sections where they were when the number of segments was chosen.
+std::vector<double> breaks_of(const RodProblem& problem, const std::vector<double>& joined, bool as_cut) {
   const Rod& rod = problem.rod;
   std::vector<double> breaks = {0, rod.length};
-  for (const Hold& hold : problem.holds) breaks.push_back(hold.at);
+  for (const Hold& hold : problem.holds) breaks.push_back(as_cut && hold.cut_at >= 0 ? hold.cut_at : hold.at);
   for (const PointLoad& load : problem.loads) breaks.push_back(load.at);
   for (const RodPart& part : rod.parts) breaks.push_back(part.upto);
   breaks.insert(breaks.end(), joined.begin(), joined.end());
@@ -37,14 +38,16 @@ int vertex_at(const std::vector<double>& s, double place) {
 
 RodMesh cut_into_segments(const RodProblem& problem, int segments, int refinement, const std::vector<double>& joined) {
   const Rod& rod = problem.rod;
-  const std::vector<double> breaks = breaks_of(problem, joined);
+  const std::vector<double> breaks = breaks_of(problem, joined, false);
+  std::vector<double> as_cut = breaks_of(problem, joined, true);
+  if (as_cut.size() != breaks.size()) as_cut = breaks;
   RodMesh mesh;
   mesh.s.reserve((segments + breaks.size()) * refinement);
   mesh.s.push_back(0);
   for (std::size_t k = 1; k < breaks.size(); ++k) {
     const double from = breaks[k - 1], to = breaks[k];
     const int count =
-        refinement * std::max(1, static_cast<int>(std::lround(segments * (to - from) / rod.length)));
+        refinement * std::max(1, static_cast<int>(std::lround(segments * (as_cut[k] - as_cut[k - 1]) / rod.length)));
     for (int i = 1; i <= count; ++i) mesh.s.push_back(i == count ? to : from + (to - from) * i / count);
   }
   mesh.segments.resize(mesh.s.size() - 1);

@@ -6,6 +6,7 @@
 
 #include "statics/error_estimate.h"
 #include "statics/network_solver.h"
+#include "statics/sliding_clips.h"
 
 namespace tendril {
 
@@ -13,8 +14,8 @@ SystemEquilibrium solve(const SystemProblem& problem, const SolveOptions& option
                         const SystemEquilibrium* from) {
   problem.check();
   const auto start = std::chrono::steady_clock::now();
-  NetworkSolver solver(problem, options);
-  SystemEquilibrium result = solver.solve(context, from);
+  SystemEquilibrium result = has_sliding_clips(problem) ? solve_sliding(problem, options, context, from)
+                                                        : NetworkSolver(problem, options).solve(context, from);
   if (options.error && result.ok()) estimate_errors(problem, options, context, result);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   for (Equilibrium& rod : result.rods) rod.seconds = seconds;

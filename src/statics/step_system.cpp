@@ -74,8 +74,10 @@ int StepSystem::factor_as_is(int& factorisations) {
 
 int StepSystem::factor(bool only_positive, int& factorisations, bool try_neutral) {
   int negative = 0;
+  applied_ = 0;
   auto shift_by = [&](double change) {
     if (change > 0) add_shift(change);
+    applied_ += change;
     negative = ldlt_.factor(block);
     ++factorisations;
   };
@@ -130,6 +132,17 @@ void StepSystem::solve_with_moments(const RodState& state, std::vector<Vec6>& st
   const Eigen::VectorXd c = (Eigen::MatrixXd::Identity(m, m) + a * zu).partialPivLu().solve(a * yu);
   for (int k = 0; k < m; ++k)
     for (int i = 0; i < network_.nodes(); ++i) step[i] -= c[k] * z[k][i];
+}
+
+void StepSystem::apply_inverse(const RodState& state, std::vector<Vec6>& x) const {
+  for (int i = 0; i < network_.nodes(); ++i)
+    for (int k = 0; k < 6; ++k)
+      if (network_.held()[i] >> k & 1) x[i][k] = 0;
+  for (const Joints::Joint& joint : network_.joints())
+    for (int k = 0; k < 6; ++k)
+      if (joint.part >> k & 1) x[joint.section][k] = 0;
+  ldlt_.solve(x);
+  network_.complete(state, x);
 }
 
 std::vector<Vec6> StepSystem::softest_mode(const RodState& state) const {

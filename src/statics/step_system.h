@@ -30,10 +30,15 @@ class StepSystem {
   /// The step, joined sections included.
   void solve(const RodState& state, std::vector<Vec6>& step) const;
 
+  /// In place: x = (matrix)^-1 x with the last factor, held unknowns zero, joined sections filled in; without dead moments.
+  void apply_inverse(const RodState& state, std::vector<Vec6>& x) const;
+
   /// The direction in which the energy curves least, by inverse iteration with the last factor.
   std::vector<Vec6> softest_mode(const RodState& state) const;
 
   double shift() const { return shift_; }
+  /// What the last factor really has on its diagonal, a neutral direction's lift included.
+  double applied_shift() const { return applied_; }
   void relax_shift();  ///< after a full step
 
  private:
@@ -44,7 +49,7 @@ class StepSystem {
   const RodNetwork& network_;
   BlockLdlt ldlt_;
   std::vector<Vec6> wanted_;  ///< what is left to the holds' places; empty when they are in place
-  double shift_ = 0, last_shift_ = 0;
+  double shift_ = 0, last_shift_ = 0, applied_ = 0;
 };
 
 }  // namespace tendril
