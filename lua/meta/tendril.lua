@@ -115,6 +115,17 @@ function curve_methods:min_bend_radius() end
 ---@field name string Its name in the scene
 local placed_rod_methods = {}
 
+---@class (exact) tendril.placed_rod.clip.options
+---@field kind? "fixed"|"swivel"|"slide" What it holds: everything, the position only, or everything but sliding along d3 (default "fixed")
+---@field turns? number Extra full turns about the tangent relative to the start (default 0)
+
+---A clip at "start", "finish" or an arc length in m. Through a slide clip the rod slips without friction along d3: the arc length is where the search begins, and the equilibrium tells where it settles.
+---@param where string|number
+---@param frame frame
+---@param options? tendril.placed_rod.clip.options
+---@return placed_rod
+function placed_rod_methods:clip(where, frame, options) end
+
 ---@class (exact) tendril.placed_rod.hold.options
 ---@field position? boolean The place is held (default true)
 ---@field orientation? boolean The orientation is held (default true)
@@ -165,12 +176,23 @@ local explanation_methods = {}
 ---@return boolean
 function explanation_methods:uses(name) end
 
----The world: gravity, obstacles and rods
+---The world: gravity, obstacles, rods and branch points
 ---@class scene
+---@field branches (string)[] Names of the branch points
 ---@field gravity vec Acceleration (m/s^2)
 ---@field obstacles (string)[] Names of the obstacles
 ---@field rods (string)[] Names of the rods
 local scene_methods = {}
+
+---@class (exact) tendril.scene.branch.options
+---@field frame? frame Where the branch point is held, fully; default: free, it finds its place
+
+---Joins sections of rods, {rod, place} each, to one rigid body. Their relative frames are kept from where the rods are held there now, and the branch point takes those holds' place; a third entry gives a section's frame seen from the branch point instead.
+---@param name string
+---@param places ([string, string|number, frame]|[string, string|number])[]
+---@param options? tendril.scene.branch.options
+---@return placed_branch
+function scene_methods:branch(name, places, options) end
 
 ---@class (exact) tendril.scene.explain.options
 ---@field element? "se3"|"staggered" Rod element: fourth order, or the second-order reference element (default "se3")
@@ -182,6 +204,22 @@ local scene_methods = {}
 ---@param options? tendril.scene.explain.options
 ---@return explanation
 function scene_methods:explain(options) end
+
+---@class (exact) tendril.scene.motion.options
+---@field holds table<string, function|(frame)[]> By "rod.start", "rod.finish", "rod.0.25" (an arc length in m) or a branch point's name: a function of t = 0 ... 1 that returns a frame, or a list of frames passed evenly in t
+---@field steps? integer Solutions that are kept, evenly spaced in t (1 ... 1000000; default 20)
+---@field largest_move? number Share of the length that a vertex may move in one step before it is halved (> 0 and <= 1; default 0.02)
+---@field smallest_step? number Of t; a larger move over this is a snap-through (> 0 and <= 1; default 0.0001)
+---@field element? "se3"|"staggered" Rod element: fourth order, or the second-order reference element (default "se3")
+---@field clamp? "half_cell"|"thesis" How the staggered element clamps an end: second order, or the thesis's first order (default "half_cell")
+---@field tolerance? number Largest last step: rotations in rad, positions over the length (1e-14 ... 0.01; default 1e-09)
+---@field error? boolean Also estimate the discretisation error (default false)
+---@field timeout? number Give up after this time, with the best state so far; default: never (s; > 0 and <= 1000000000)
+
+---Moves holds along paths, quasi-statically: each equilibrium starts from the one before, steps adapt, and a snap-through is reported with its place.
+---@param options tendril.scene.motion.options
+---@return motion
+function scene_methods:motion(options) end
 
 ---@class (exact) tendril.scene.obstacle.options
 ---@field unit? "mm"|"cm"|"m"|"in" Length unit of the file or data; a file must be given one
@@ -202,7 +240,7 @@ function scene_methods:obstacle(name, shape, options) end
 ---@return placed_rod
 function scene_methods:placed(name) end
 
----Removes a rod or an obstacle.
+---Removes a rod, a branch point or an obstacle.
 ---@param name string
 ---@return scene
 function scene_methods:remove(name) end
@@ -224,6 +262,7 @@ function scene_methods:rod(name, design, options) end
 ---@field tolerance? number Largest last step: rotations in rad, positions over the length (1e-14 ... 0.01; default 1e-09)
 ---@field error? boolean Also estimate the discretisation error (default false)
 ---@field from? equilibrium Start from this equilibrium of a similar scene
+---@field modes? boolean Also the softest eigenmodes, and other stable equilibria for the same holds (default false)
 ---@field timeout? number Give up after this time, with the best state so far; default: never (s; > 0 and <= 1000000000)
 
 ---Static equilibrium of every rod. Look at .ok: what does not converge is a result, not an error.
@@ -234,6 +273,47 @@ function scene_methods:solve(options) end
 ---A box, sphere, cylinder or half-space to place with scene:obstacle
 ---@class solid
 local solid_methods = {}
+
+---A rigid junction of rods in a scene
+---@class placed_branch
+---@field name string Its name in the scene
+---@field rods (string)[] Names of the rods that it joins
+local placed_branch_methods = {}
+
+---@class (exact) tendril.placed_branch.hold.options
+---@field position? boolean The place is held (default true)
+---@field orientation? boolean The orientation is held (default true)
+
+---Holds it in place, in orientation or both.
+---@param frame frame
+---@param options? tendril.placed_branch.hold.options
+---@return placed_branch
+function placed_branch_methods:hold(frame, options) end
+
+---Lets it find its own place.
+---@return placed_branch
+function placed_branch_methods:release() end
+
+---Rods that left their equilibrium and came to rest in another one
+---@class snap_through
+---@field energy_drop number Energy set free (J)
+---@field move number By so much (m)
+---@field rod string Which moved farthest
+---@field s number At this arc length (m)
+---@field t number When
+local snap_through_methods = {}
+
+---A quasi-static motion
+---@class motion
+---@field equilibria (equilibrium)[] At those times
+---@field message string What there is to say about it
+---@field ok boolean It went to the end
+---@field seconds number Run time (s)
+---@field snaps (snap_through)[] Snap-throughs, in time order
+---@field solves integer Equilibria that were computed
+---@field status string "solved", "stalled", "cancelled", "timeout"
+---@field times (number)[] t of the equilibria
+local motion_methods = {}
 
 ---The smallest gap; computes as a number in m, negative where surfaces penetrate
 ---@class clearance
@@ -286,6 +366,21 @@ local energy_methods = {}
 ---@field s number Arc length (m)
 local contact_methods = {}
 
+---What a hold or a branch point does to a rod
+---@class support
+---@field force vec On the rod, world axes (N)
+---@field moment vec On the rod, about its centre line there, world axes (N m)
+---@field s number Arc length; of a slide clip: where the rod has settled in it (m)
+local support_methods = {}
+
+---One branch point in equilibrium
+---@class solved_branch
+---@field force vec Of what holds it, world axes; zero where it is free (N)
+---@field frame frame Where it is
+---@field moment vec Of what holds it, about its place, world axes (N m)
+---@field name string Its name in the scene
+local solved_branch_methods = {}
+
 ---One rod in equilibrium
 ---@class solved_rod
 ---@field arc_lengths (number)[] Of the vertices, unstressed (m)
@@ -302,6 +397,7 @@ local contact_methods = {}
 ---@field ok boolean Solved
 ---@field points (vec)[] Vertices of the centre line (m)
 ---@field status string How the solve ended
+---@field supports (support)[] What its holds, in the order they were given, and branch points do to it
 ---@field tension (number)[] Of each segment; negative: compression (N)
 ---@field twist (number)[] Of each segment (rad/m)
 local solved_rod_methods = {}
@@ -315,20 +411,28 @@ function solved_rod_methods:at(s) end
 ---@class equilibrium
 ---@field contacts (contact)[] Forces of the surroundings on the rods
 ---@field deepest_penetration number 0 without contact (m)
+---@field eigenvalues (number)[]? Softest first: stiffness against the softest disturbances, a pure number (EI/L^2 times a turn's share of the length); negative: unstable; nil unless solved with modes = true
 ---@field energy energy By term (J)
 ---@field error error_estimate? Estimated discretisation error; nil unless solved with error = true (m)
 ---@field iterations integer Newton steps, all rods
 ---@field measures (string)[] Names of the measures that eq:gradient knows
 ---@field message string What there is to say about it
+---@field modes (equilibrium)[]? Other stable equilibria for the same holds, by growing energy; nil unless solved with modes = true
 ---@field ok boolean Every rod is solved
 ---@field parameters (string)[] Names of all that eq:gradient can differentiate by
 ---@field residual number Largest unbalanced force, or moment over length (N)
 ---@field rods (string)[] Names of the rods
 ---@field seconds number Time to solve, without building trees (s)
 ---@field seconds_for_trees number Time to build the obstacles' trees, 0 when they stood already (s)
+---@field softest_mode table<string, (vec)[]>? By rod: how far the vertices move (m) along the softest disturbance; nil unless solved with modes = true
 ---@field stable boolean No negative eigenvalue
 ---@field status string "solved", "stalled", "cancelled", "timeout"
 local equilibrium_methods = {}
+
+---One branch point in equilibrium.
+---@param name string
+---@return solved_branch
+function equilibrium_methods:branch(name) end
 
 ---@class (exact) tendril.equilibrium.clearance.options
 ---@field from? string The rod; may be left out when there is only one
@@ -339,7 +443,7 @@ local equilibrium_methods = {}
 ---@return clearance
 function equilibrium_methods:clearance(options) end
 
----Force (N, world axes) of the support on the rod at a hold.
+---Force (N, world axes) of the support or branch point on the rod at a hold or joint.
 ---@param name string
 ---@param where string|number
 ---@return vec
@@ -352,6 +456,7 @@ function equilibrium_methods:force(name, where) end
 function equilibrium_methods:gradient(measure, parameters) end
 
 ---Moment (N m, world axes, about the centre line) of the support on the rod at a hold.
+---Moment (N m, world axes, about the centre line) of the support or branch point on the rod at a hold or joint.
 ---@param name string
 ---@param where string|number
 ---@return vec
