@@ -455,7 +455,6 @@ function equilibrium_methods:force(name, where) end
 ---@return gradient
 function equilibrium_methods:gradient(measure, parameters) end
 
----Moment (N m, world axes, about the centre line) of the support on the rod at a hold.
 ---Moment (N m, world axes, about the centre line) of the support or branch point on the rod at a hold or joint.
 ---@param name string
 ---@param where string|number
