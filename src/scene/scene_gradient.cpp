@@ -63,8 +63,10 @@ SceneSensitivity::System& SceneSensitivity::system(int k, const RunContext& cont
   SolveOptions options = equilibrium_.rods[solved.rods.front()].options;
   options.tolerance = std::min(options.tolerance, 1e-10);
   if (touches && solved.rods.size() == 1) {
+    SystemEquilibrium from;
+    from.rods = {equilibrium_.rods[solved.rods.front()].equilibrium};
     system->contact = std::make_unique<ContactSolver>(system->network, options);
-    system->status = system->contact->run(system->state, &equilibrium_.rods[solved.rods.front()].equilibrium, context).newton.status;
+    system->status = system->contact->run(system->state, &from, context).newton.status;
   } else {
     NewtonOptions newton;
     newton.tolerance = options.tolerance;
