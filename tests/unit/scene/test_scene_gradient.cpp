@@ -18,7 +18,7 @@ Scene scene_with_branch(double reach = 0.9) {
   const Frame start = Frame::looking({0, 0, 0}, {1, 0, 0}, {0, 0, 1});
   PlacedRod& a = scene.add(PlacedRod("a", Rod::uniform(0.5, section, 12), start, std::nullopt));
   PlacedRod& b = scene.add(PlacedRod("b", Rod::uniform(0.5, section, 12), std::nullopt, start.moved({reach, 0, 0})));
-  scene.add(make_branch("tee", {{&a, 0.5, std::nullopt}, {&b, 0, std::nullopt}}, std::nullopt));
+  scene.join("tee", {{&a, 0.5, std::nullopt}, {&b, 0, std::nullopt}}, std::nullopt);
   scene.add(PlacedRod("alone", Rod::uniform(1, section, 20), start.moved({0, 1, 0}), start.moved({0.8, 1, 0})));
   return scene;
 }
