@@ -137,10 +137,16 @@ ContactSet::Nearest ContactSet::nearest(int i, double range) {
   if (const PointContact* c = at(i)) return {c->distance, c->normal};
   Nearest nearest;
   if (distance_bound(i, x_[i]) >= range) return nearest;
-  terms_.clear();
   ++queries_;
+  if (!covered(i)) {
+    // One closest point is far cheaper than all that lies within the range.
+    const ClosestPoint c = field_->closest(x_[i], range);
+    if (c.obstacle >= 0 && c.distance != 0) nearest = {c.distance, (x_[i] - c.point) / c.distance};
+    return nearest;
+  }
+  terms_.clear();
   field_->terms(x_[i], range, terms_);
-  if (covered(i)) leave_out_covered(i);
+  leave_out_covered(i);
   for (const DistanceTerm& t : terms_)
     if (t.distance < nearest.distance) nearest = {t.distance, t.normal};
   return nearest;

@@ -44,17 +44,26 @@ ContactPoint SlidingContacts::place(int near, double s) const {
   return point;
 }
 
+/// The distance of the nearest surface that lies against a direction; `limit` when there is none nearer.
+double SlidingContacts::distance_facing(const Vec3& x, const Vec3& direction, double limit) {
+  // Mostly the closest point is the one: far cheaper than all that lies within the limit.
+  const ClosestPoint c = field_->closest(x, limit);
+  if (c.obstacle < 0 || c.distance >= limit) return limit;
+  if (c.distance != 0 && faces({1, c.distance, (x - c.point) / c.distance, Mat3::Zero(), c.obstacle}, direction)) return c.distance;
+  terms_.clear();
+  field_->terms(x, limit, terms_);
+  double nearest = limit;
+  for (const DistanceTerm& t : terms_)
+    if (faces(t, direction)) nearest = std::min(nearest, t.distance);
+  return nearest;
+}
+
 double SlidingContacts::sharpness_of(const Point& p, const VertexShape& shape) {
   const double aside = 0.5 * p.at.radius;
   double rise = 0;
   for (double side : {-aside, aside}) {
     const ContactPoint there = place(p.at.segment, std::clamp(p.at.s + side, s_.front(), s_.back()));
-    terms_.clear();
-    field_->terms(position_of(there, shape), 2 * p.at.radius, terms_);
-    double nearest = 2 * p.at.radius;
-    for (const DistanceTerm& t : terms_)
-      if (faces(t, p.direction)) nearest = std::min(nearest, t.distance);
-    rise += nearest - p.contact.distance;
+    rise += distance_facing(position_of(there, shape), p.direction, 2 * p.at.radius) - p.contact.distance;
   }
   return rise * p.at.radius / (aside * aside);
 }

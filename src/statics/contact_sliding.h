@@ -74,6 +74,7 @@ class SlidingContacts {
 
  private:
   void slide(Point& point, const VertexShape& shape, const ContactLaw& law);
+  double distance_facing(const Vec3& x, const Vec3& direction, double limit);
   double sharpness_of(const Point& point, const VertexShape& shape);
   ContactPoint place(int near, double s) const;
   double look_at(Point& point, double s, const VertexShape& shape, const ContactLaw& law);
