@@ -16,6 +16,7 @@ constexpr double other_hardness[] = {0.03, 0.004};     // a stalled run is tried
 constexpr double soft_tolerance = 2e-2;
 constexpr double hard_step = 0.02, loose_step = 2e-3;  // radii: what may be left of a step before the first update, later
 constexpr double slow = 0.4, hardening = 4;          // an overlap that falls less than this makes the law so much stiffer
+constexpr int warm_iterations = 16;                  // a warm start that is worth it needs fewer
 constexpr int soft_iterations = 40, hard_iterations = 80, update_iterations = 60, descent_iterations = 300;
 
 std::string text(const char* format, double a) {
@@ -130,7 +131,7 @@ ContactOutcome ContactSolver::attempt(RodState& state, const SystemEquilibrium* 
 
   if (from) {
     for (const ContactNetwork::Rod& rod : terms_.rods()) rod.terms->take_forces(from->rods[rod.index].contacts);
-    out.newton = stage(state, Start::warm, loose(hard_step), hard_iterations, false, context);
+    out.newton = stage(state, Start::warm, loose(hard_step), warm_iterations, false, context);
   } else {
     terms_.set_softness(soft);
     terms_.set_early_end(true);
