@@ -1,5 +1,5 @@
 // Batches of outcomes on one core: three coolant hoses that meet in a rigid T, and one hose between two clamps, by
-// instruction set. `per_outcome` in us; `error_mm` is the largest distance of the outcomes' vertices from solutions with
+// instruction set. `us_per_outcome` in us; `error_mm` is the largest distance of the outcomes' vertices from solutions with
 // eight times the segments; `against_scalar` is the scalar solver's time for an outcome, warm from the nominal equilibrium
 // and without setting it up, over the batch's, both in this run.
 #include <benchmark/benchmark.h>
@@ -157,7 +157,7 @@ void run(benchmark::State& state, const SystemProblem& nominal, const Batch::Fil
   state.counters["scalar"] = scalar;
   if (workers > 1) return;
   state.counters["fastest_ms"] = 1e3 * fastest;
-  state.counters["per_outcome"] = 1e6 * fastest / outcomes;
+  state.counters["us_per_outcome"] = 1e6 * fastest / outcomes;
   state.counters["error_mm"] = error_mm(nominal, fill, results);
   state.counters["against_scalar"] = scalar_seconds(nominal, fill) * outcomes / fastest;
 }
