@@ -18,8 +18,9 @@ struct SpanVariant {
   double slack, turn;
 };
 constexpr std::array<SpanVariant, 18> span_variants{
-    {{1, 0},     {1, 45},    {1, -45},  {1, 90},   {1, -90},   {1, 135},    {1, -135},   {1, 180},   {0.7, 0},
-     {0.4, 0},   {0.15, 0},  {0.4, 90}, {0.4, -90}, {0.4, 180}, {0, 0},     {0.15, 90},  {0.15, -90}, {0.15, 180}}};
+    // What hangs comes before what stands: a rod that arches over something would stay there.
+    {{1, 0},    {1, 45},   {1, -45},  {1, 90},    {1, -90}, {0.7, 0},   {0.4, 0},   {0.15, 0},   {0.4, 90},
+     {0.4, -90}, {1, 135}, {1, -135}, {1, 180},   {0.4, 180}, {0, 0},   {0.15, 90}, {0.15, -90}, {0.15, 180}}};
 
 /// How free ends differ: curled by so much in all (degrees), away from gravity turned by `turn` about the tangent.
 struct TailVariant {
