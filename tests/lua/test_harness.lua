@@ -162,7 +162,7 @@ check.case("an arch that is turned over snaps through", function()
   check.equal(#m.snaps, 1)
   check.equal(m.snaps[1].rod, "arch")
   check.is_true(m.snaps[1].t > 0.5 and m.snaps[1].energy_drop > 0 and m.snaps[1].move > 50 * mm)
-  check.contains(m, "snap-throughs", "'arch'" and "arch")
+  check.contains(m, "snap-throughs", "arch")
 end)
 
 check.case("modes", function()
