@@ -1,0 +1,149 @@
+// Tolerance envelopes: three hoses in a T and a harness of 30 rods, 1000 outcomes each, by voxel. The outcomes are drawn
+// from smooth random modes of the rods, at no cost: what is measured is the envelope alone, collecting included.
+// `cpu_ms`: processor time of all threads, fastest call; `first_ms`: wall time of the first call with new memory.
+#include <benchmark/benchmark.h>
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <random>
+
+#include "base/units.h"
+#include "method/envelope/envelope.h"
+
+namespace {
+
+using namespace tendril;
+
+double process_seconds() {
+  timespec t;
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return t.tv_sec + 1e-9 * t.tv_nsec;
+}
+
+/// Rods that start as straight lines and are moved by a few smooth modes, each with its own random weight an outcome.
+struct Family {
+  std::vector<EnvelopeRod> rods;
+  std::vector<std::vector<double>> points;  ///< by outcome * rods + rod
+  int outcomes = 0;
+
+  std::span<const double> operator()(int outcome, int rod) const { return points[outcome * rods.size() + rod]; }
+};
+
+struct Line {
+  Vec3 from, to;
+  double radius;
+  int segments;
+};
+
+Family family(const std::vector<Line>& lines, int outcomes, double spread) {
+  Family family;
+  family.outcomes = outcomes;
+  std::mt19937 random(5);
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> share(-1, 1);
+  for (const Line& line : lines) family.rods.push_back({std::vector<double>(line.segments, line.radius), 1});
+  for (int k = 0; k < outcomes; ++k)
+    for (const Line& line : lines) {
+      const double length = (line.to - line.from).norm();
+      Vec3 modes[3];
+      for (Vec3& mode : modes) mode = spread * Vec3(share(random), share(random), share(random));
+      std::vector<double> points;
+      for (int i = 0; i <= line.segments; ++i) {
+        const double s = static_cast<double>(i) / line.segments;
+        Vec3 p = line.from + s * (line.to - line.from) - Vec3(0, 0, 0.4 * length * s * (1 - s));
+        for (int m = 0; m < 3; ++m) p += modes[m] * std::sin((m + 1) * units::pi * s) / ((m + 1) * (m + 1));
+        points.insert(points.end(), {p.x(), p.y(), p.z()});
+      }
+      family.points.push_back(std::move(points));
+    }
+  return family;
+}
+
+/// 120 segments of 12.5 mm, radius 15 mm.
+Family tee() {
+  const Vec3 middle(0.45, 0, 0);
+  return family({{{0, 0, 0}, middle, 0.015, 40}, {middle, {0.9, 0.1, 0.1}, 0.015, 40}, {middle, {0.42, 0.5, -0.1}, 0.015, 40}},
+                1000, 0.08);
+}
+
+/// 30 rods of 40 segments over 2 m.
+Family harness() {
+  std::vector<Line> lines;
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> share(0, 1);
+  for (int k = 0; k < 30; ++k) {
+    const Vec3 from(0.07 * k, 0.3 * share(random), 0.2 * share(random));
+    lines.push_back({from, from + Vec3(0.1 * share(random), 0.35 + 0.2 * share(random), 0.2 * share(random)), 0.006 + 0.004 * share(random), 40});
+  }
+  return family(lines, 1000, 0.03);
+}
+
+RunContext threads(int count) {
+  RunContext context;
+  context.threads = count;
+  return context;
+}
+
+double first_call_ms(const Family& family, double voxel, int workers) {
+  double first = INFINITY;
+  for (int round = 0; round < 3; ++round) {
+    const auto begun = RunContext::Clock::now();
+    EnvelopeBuilder builder;
+    EnvelopeOutcomes outcomes(family.rods);
+    outcomes.add_points(family.outcomes, family, threads(workers));
+    EnvelopeOptions options;
+    options.voxel = voxel;
+    benchmark::DoNotOptimize(builder.build(outcomes, options, threads(workers)));
+    first = std::min(first, 1e3 * std::chrono::duration<double>(RunContext::Clock::now() - begun).count());
+  }
+  return first;
+}
+
+void run(benchmark::State& state, const Family& family, double voxel, int workers) {
+  state.counters["first_ms"] = first_call_ms(family, voxel, workers);
+  EnvelopeBuilder builder;
+  EnvelopeOutcomes outcomes(family.rods);
+  EnvelopeOptions options;
+  options.voxel = voxel;
+  Envelope envelope;
+  double fastest = INFINITY, adding = INFINITY;
+  std::vector<double> steps;
+  for (auto _ : state) {
+    const double before = process_seconds();
+    outcomes.clear();
+    outcomes.add_points(family.outcomes, family, threads(workers));
+    adding = std::min(adding, process_seconds() - before);
+    builder.build(outcomes, options, threads(workers), envelope);
+    fastest = std::min(fastest, process_seconds() - before);
+    steps.resize(envelope.steps.size(), INFINITY);
+    for (std::size_t i = 0; i < steps.size(); ++i) steps[i] = std::min(steps[i], envelope.steps[i].seconds);
+  }
+  state.counters["cpu_ms"] = 1e3 * fastest;
+  state.counters["add_ms"] = 1e3 * adding;
+  for (std::size_t i = 0; i < steps.size(); ++i) state.counters[envelope.steps[i].name + "_ms"] = 1e3 * steps[i];
+  state.counters["triangles"] = static_cast<double>(envelope.mesh.triangles.size());
+  state.counters["volume_dm3"] = 1e3 * envelope.volume;
+  state.counters["planes"] = envelope.planes / static_cast<double>(envelope.hulls);
+  state.counters["blocks"] = envelope.blocks;
+  state.counters["scratch_MB"] = 1e-6 * (static_cast<double>(envelope.scratch_bytes) + static_cast<double>(outcomes.bytes()));
+  rusage usage;
+  getrusage(RUSAGE_SELF, &usage);
+  state.counters["resident_MB"] = usage.ru_maxrss / 1024.0;
+}
+
+void envelope_tee(benchmark::State& state) {
+  const Family tee_family = tee();
+  run(state, tee_family, 1e-3 * state.range(0), static_cast<int>(state.range(1)));
+}
+BENCHMARK(envelope_tee)->ArgNames({"voxel_mm", "threads"})->ArgsProduct({{8, 4, 2, 1}, {1, 2}})->Unit(benchmark::kMillisecond)->UseRealTime();
+
+void envelope_harness(benchmark::State& state) {
+  const Family harness_family = harness();
+  run(state, harness_family, 1e-3 * state.range(0), static_cast<int>(state.range(1)));
+}
+BENCHMARK(envelope_harness)->ArgNames({"voxel_mm", "threads"})->ArgsProduct({{4, 2}, {1, 2}})->Unit(benchmark::kMillisecond)->UseRealTime();
+
+}  // namespace
