@@ -2,26 +2,12 @@
 
 #include <cmath>
 
-#include "statics/contact_solver.h"
 #include "statics/solve.h"
 
 namespace tendril {
 
-/// One system, settled to rounding, with its factorised matrix.
-struct SceneSensitivity::System {
-  RodNetwork network;
-  std::unique_ptr<ContactSolver> contact;
-  RodState state;
-  Status status = Status::solved;
-  std::unique_ptr<Sensitivity> sensitivity;  ///< null: not solved
-
-  System(const SystemProblem& problem, const SolveOptions& options, const std::vector<int>& segments)
-      : network(problem, options, segments) {}
-};
-
 SceneSensitivity::SceneSensitivity(const SceneEquilibrium& equilibrium)
     : equilibrium_(equilibrium), systems_(equilibrium.systems.size()) {}
-SceneSensitivity::~SceneSensitivity() = default;
 
 std::string SceneGradient::unit_of(const std::string& measure, const std::string& parameter) {
   if (measure == parameter) return "1";
@@ -30,55 +16,9 @@ std::string SceneGradient::unit_of(const std::string& measure, const std::string
   return (measure.empty() ? "1" : measure) + "/" + (product ? "(" + parameter + ")" : parameter);
 }
 
-SceneSensitivity::System& SceneSensitivity::system(int k, const RunContext& context) {
-  std::unique_ptr<System>& made = systems_[k];
-  if (made) return *made;
-  const SolvedSystem& solved = equilibrium_.systems[k];
-  std::vector<int> segments;
-  std::vector<std::vector<Frame>> frames;
-  bool touches = false, pressed = false;
-  for (std::size_t i = 0; i < solved.rods.size(); ++i) {
-    const RodProblem& problem = solved.problem.rods[i];
-    const Equilibrium& rod = equilibrium_.rods[solved.rods[i]].equilibrium;
-    for (const Hold& hold : problem.holds)
-      if (hold.slide)
-        throw UsageError("equilibrium:gradient: rod '" + equilibrium_.rods[solved.rods[i]].name +
-                         "' slides through a clip; sensitivities are for rods held at given places");
-    segments.push_back(problem.rod.segments);
-    touches = touches || problem.surroundings;
-    pressed = pressed || !rod.contacts.empty();
-    std::vector<Frame>& own = frames.emplace_back();
-    for (std::size_t v = 0; v < rod.points.size(); ++v) own.push_back({rod.points[v], rod.rotations[v]});
-  }
-  if (pressed && solved.rods.size() > 1)
-    throw UsageError("equilibrium:gradient: '" + equilibrium_.rods[solved.rods.front()].name +
-                     "' and the rods it is joined to touch obstacles; sensitivities in contact are for rods by themselves");
-  std::vector<Frame> branches;
-  for (const int b : solved.branches) branches.push_back(equilibrium_.branches[b].frame);
-  auto system = std::make_unique<System>(solved.problem, equilibrium_.rods[solved.rods.front()].options, segments);
-  for (int i = 0; i < system->network.rods(); ++i)
-    if (static_cast<int>(frames[i].size()) != system->network.rod(i).mesh().vertices())
-      throw UsageError("equilibrium:gradient: '" + equilibrium_.rods[solved.rods[i]].name + "' was solved on another mesh than it asks for");
-  system->state = system->network.state_from(frames, branches);
-  SolveOptions options = equilibrium_.rods[solved.rods.front()].options;
-  options.tolerance = std::min(options.tolerance, 1e-10);
-  if (touches && solved.rods.size() == 1) {
-    SystemEquilibrium from;
-    from.rods = {equilibrium_.rods[solved.rods.front()].equilibrium};
-    system->contact = std::make_unique<ContactSolver>(system->network, options);
-    system->status = system->contact->run(system->state, &from, context).newton.status;
-  } else {
-    NewtonOptions newton;
-    newton.tolerance = options.tolerance;
-    newton.stable_only = false;
-    newton.warm = true;
-    system->status = Newton(system->network, nullptr).run(system->state, newton, context).status;
-  }
-  if (system->status == Status::solved)
-    system->sensitivity = std::make_unique<Sensitivity>(system->network, system->state,
-                                                        system->contact ? &system->contact->terms() : nullptr);
-  made = std::move(system);
-  return *made;
+SystemSensitivity& SceneSensitivity::system(int k, const RunContext& context) {
+  if (!systems_[k]) systems_[k] = std::make_unique<SystemSensitivity>(equilibrium_, k, context);
+  return *systems_[k];
 }
 
 SceneGradient SceneSensitivity::gradient(const SceneMeasure& measure, const std::vector<SceneParameter>& parameters,
@@ -95,14 +35,13 @@ SceneGradient SceneSensitivity::gradient(const SceneMeasure& measure, const std:
     out.message = "the equilibrium is not solved: " + equilibrium_.message();
     return out;
   }
-  System& system = this->system(measure.system, context);
-  if (!system.sensitivity || !system.sensitivity->ok()) {
-    out.message = system.sensitivity ? "the equilibrium is singular: it does not depend smoothly on its parameters"
-                                     : std::string("the equilibrium could not be settled: ") + name_of(system.status);
+  const SystemSensitivity& system = this->system(measure.system, context);
+  if (!system.why_not().empty()) {
+    out.message = system.why_not();
     return out;
   }
-  const std::vector<double> derivatives = system.sensitivity->gradient(measure.measure, own);
-  out.value = system.sensitivity->measure(measure.measure).value;
+  const auto [value, derivatives] = system.gradient(measure.measure, own);
+  out.value = value;
   std::size_t next = 0;
   for (std::size_t k = 0; k < parameters.size(); ++k) {
     const bool here = parameters[k].system < 0 || parameters[k].system == measure.system;

@@ -17,6 +17,7 @@
 
 #include "base/run_context.h"
 #include "scene/scene_equilibrium.h"
+#include "scene/system_sensitivity.h"
 #include "statics/sensitivity.h"
 
 namespace tendril {
@@ -70,10 +71,10 @@ class SceneSensitivity {
  public:
   /// The equilibrium must outlive this. Nothing is computed before the first question.
   explicit SceneSensitivity(const SceneEquilibrium& equilibrium);
-  ~SceneSensitivity();
 
-  /// Exact derivatives by one adjoint solution. Throws UsageError for rods of staggered elements and for clips that slide;
-  /// an equilibrium that is not solved, or a singular one, gives a result that is not ok.
+  /// Exact derivatives by one adjoint solution (with sliding clips by four more equilibria a clip, see system_sensitivity.h).
+  /// Throws UsageError for rods of staggered elements; an equilibrium that is not solved, or a singular one, gives a result
+  /// that is not ok.
   SceneGradient gradient(const SceneMeasure& measure, const std::vector<SceneParameter>& parameters, const RunContext& context = {});
 
   /// Derivatives of any function of an equilibrium by central differences of scenes solved anew, two for each parameter:
@@ -82,12 +83,11 @@ class SceneSensitivity {
                          const std::vector<SceneParameter>& parameters, const RunContext& context = {}) const;
 
  private:
-  struct System;
-  System& system(int k, const RunContext& context);
+  SystemSensitivity& system(int k, const RunContext& context);
   SceneEquilibrium solved_after(const SceneParameter& parameter, double by, const RunContext& context) const;
 
   const SceneEquilibrium& equilibrium_;
-  std::vector<std::unique_ptr<System>> systems_;
+  std::vector<std::unique_ptr<SystemSensitivity>> systems_;
 };
 
 }  // namespace tendril

@@ -55,7 +55,7 @@ class ParameterList {
       const std::string place = name + "." + holds[k];
       if (hold.position) add_vector(system, place + ".at", {Kind::hold_position, rod, k});
       if (hold.orientation) add_vector(system, place + ".turn", {Kind::hold_orientation, rod, k});
-      if (inside(hold.at, problem.rod)) add(system, place + ".place", {Kind::hold_place, rod, k});
+      if (inside(hold.at, problem.rod) && !hold.slide) add(system, place + ".place", {Kind::hold_place, rod, k});
     }
     for (int k = 0; k < static_cast<int>(problem.loads.size()); ++k) {
       const std::string load = name + ".load." + std::to_string(k + 1);

@@ -53,6 +53,7 @@ class ContactSolver {
 
   /// Of a rod that has surroundings.
   ContactTerms& terms(int rod = 0) { return *terms_.of_rod(rod); }
+  ContactNetwork& contacts() { return terms_; }
   Newton& newton() { return newton_; }
 
  private:

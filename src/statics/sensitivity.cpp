@@ -7,10 +7,8 @@
 
 namespace tendril {
 
-Sensitivity::Sensitivity(RodNetwork& network, const RodState& state, ContactTerms* contacts)
+Sensitivity::Sensitivity(RodNetwork& network, const RodState& state, ContactNetwork* contacts)
     : network_(network), contacts_(contacts), ldlt_(network.pattern()) {
-  if (contacts && network.rods() > 1)
-    throw UsageError("sensitivity: got contact of " + std::to_string(network.rods()) + " joined rods, expected a single rod");
   for (int k = 0; k < network.rods(); ++k) {
     rods_.emplace_back(network.rod(k));
     breaks_.push_back(break_vertices(network.rod(k)));
@@ -25,7 +23,7 @@ void Sensitivity::stand_at(const RodState& state) {
   network_.assemble(state_, Stress::actual, block_);
   if (contacts_) {
     contacts_->stand_at(state_);
-    contacts_->add_to(state_, true, block_);
+    for (const ContactNetwork::Rod& rod : contacts_->rods()) rod.terms->add_to(state_, true, block_);
   }
   gradient_ = block_.gradient;
   if (!network_.problem().branches.empty()) unjoined_ = block_;

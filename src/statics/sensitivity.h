@@ -9,7 +9,7 @@
 // unknowns: it enters as a lambda that is not zero there. Dead moments make K unsymmetric in 3x3 blocks.
 //
 // K is that of the actual wrenches and the exact curvature of contact, whose law keeps its stiffness and its shifts.
-// Not done: staggered elements, contact of joined rods. Clips that slide are taken at the places where they stand.
+// Not done: staggered elements. Clips that slide are taken at the places where they stand; see scene_gradient.h for more.
 #pragma once
 
 #include <span>
@@ -18,7 +18,7 @@
 #include <Eigen/Core>
 
 #include "statics/block_ldlt.h"
-#include "statics/contact_terms.h"
+#include "statics/contact_network.h"
 #include "statics/measure.h"
 #include "statics/parameter.h"
 
@@ -27,8 +27,8 @@ namespace tendril {
 class Sensitivity {
  public:
   /// Assembles and factorises at an equilibrium. `contacts`: null without surroundings. Both must outlive this. Throws
-  /// UsageError for rods of staggered elements and for contact of several rods.
-  Sensitivity(RodNetwork& network, const RodState& state, ContactTerms* contacts = nullptr);
+  /// UsageError for rods of staggered elements.
+  Sensitivity(RodNetwork& network, const RodState& state, ContactNetwork* contacts = nullptr);
   Sensitivity(const Sensitivity&) = delete;  // its rods look at its state
   Sensitivity& operator=(const Sensitivity&) = delete;
 
@@ -75,7 +75,7 @@ class Sensitivity {
 
   RodNetwork& network_;
   RodState state_;
-  ContactTerms* contacts_;
+  ContactNetwork* contacts_;
   std::vector<RodDerivatives> rods_;
   std::vector<std::vector<int>> breaks_, parts_;  ///< by rod
   BlockLdlt ldlt_;

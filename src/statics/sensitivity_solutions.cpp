@@ -89,7 +89,8 @@ void Sensitivity::add_change(const ParameterEffect& effect, std::vector<Vec6>& g
       radii[i] = change.radius;
     }
     rods_[k].add_gradient_change(changes, own);
-    if (contacts_) add_contact_change(*contacts_, s, shape_of(k), places, radii, {own, s.size()});
+    if (const ContactTerms* contacts = contacts_ ? contacts_->of_rod(k) : nullptr)
+      add_contact_change(*contacts, s, shape_of(k), places, radii, {own, s.size()});
   }
   for (const ParameterEffect::AtNode& load : effect.loads) {
     gradient[load.node].head<3>() -= load.change.head<3>();
@@ -201,7 +202,8 @@ Sensitivity::Adjoint Sensitivity::adjoint_of(MeasureSlopes slopes) const {
     const int first = network_.first_node(k);
     rods_[k].add_work(minus.data() + first, slopes.by_rod[k]);
     const std::vector<double>& s = network_.rod(k).mesh().s;
-    if (contacts_) add_contact_work(*contacts_, s, shape_of(k), std::span(minus).subspan(first, s.size()), slopes.by_rod[k]);
+    if (const ContactTerms* contacts = contacts_ ? contacts_->of_rod(k) : nullptr)
+      add_contact_work(*contacts, s, shape_of(k), std::span(minus).subspan(first, s.size()), slopes.by_rod[k]);
   }
   out.slopes = std::move(slopes);
   out.state = std::move(x);

@@ -16,61 +16,76 @@ using What = Measure::What;
 
 namespace {
 
-/// A rod in contact, settled to rounding under a law whose shifts make up given forces.
+std::vector<int> segments_of(const SystemProblem& problem) {
+  std::vector<int> segments;
+  for (const RodProblem& rod : problem.rods) segments.push_back(rod.rod.segments);
+  return segments;
+}
+
+/// Rods in contact, settled to rounding under a law whose shifts make up given forces.
 struct Touching {
   RodNetwork network;
   ContactSolver solver;
   RodState state;
-  std::vector<ContactForce> forces;
-  std::vector<double> shifts;  ///< of the points that stand
+  std::vector<std::vector<ContactForce>> forces;  ///< by rod
+  std::vector<std::vector<double>> shifts;        ///< by rod: of the points that stand
   bool ok = false;
 
   /// From nothing.
-  explicit Touching(const SystemProblem& problem) : network(problem, {}, {problem.rods[0].rod.segments}), solver(network, {}) {
+  explicit Touching(const SystemProblem& problem) : network(problem, {}, segments_of(problem)), solver(network, {}) {
     state = solver.clear_start();
     if (solver.run(state, nullptr, {}).newton.status != Status::solved) return;
-    Equilibrium found;
-    solver.describe(state, 0, found);
-    forces = found.contacts;
-    solver.terms().take_forces(forces);
-    shifts = solver.terms().set().shifts();
+    for (int k = 0; k < network.rods(); ++k) {
+      Equilibrium found;
+      solver.describe(state, k, found);
+      forces.push_back(found.contacts);
+      solver.terms(k).take_forces(forces[k]);
+      shifts.push_back(solver.terms(k).set().shifts());
+    }
     settle();
   }
 
   /// Beside another one, with its law and its forces' shifts.
-  Touching(const SystemProblem& problem, const Touching& like)
-      : network(problem, {}, {problem.rods[0].rod.segments}), solver(network, {}), state(like.state), forces(like.forces), shifts(like.shifts) {
-    ContactTerms& terms = solver.terms();
-    terms.set().law = like.law();
-    if (terms.set().size() != static_cast<int>(shifts.size())) return;
-    terms.take_forces(forces);
-    terms.set().set_shifts(shifts);
+  Touching(const SystemProblem& problem, Touching& like)
+      : network(problem, {}, segments_of(problem)), solver(network, {}), state(like.state), forces(like.forces), shifts(like.shifts) {
+    for (int k = 0; k < network.rods(); ++k) {
+      ContactTerms& terms = solver.terms(k);
+      terms.set().law = like.solver.terms(k).set().law;
+      if (terms.set().size() != static_cast<int>(shifts[k].size())) return;
+      // A force at the finish stays there.
+      for (ContactForce& force : forces[k]) force.s *= network.rod(k).length() / like.network.rod(k).length();
+      terms.take_forces(forces[k]);
+      terms.set().set_shifts(shifts[k]);
+    }
     settle();
   }
 
-  ContactLaw law() const { return const_cast<ContactSolver&>(solver).terms().set().law; }
-
-  int touching() {
+  int touching(int rod) {
     int count = 0;
-    const ContactTerms& terms = solver.terms();
+    const ContactTerms& terms = solver.terms(rod);
     for (int i = 0; i < terms.set().size(); ++i) count += terms.set().at(i) != nullptr;
     for (const SlidingContacts::Point& p : terms.sliding().points()) count += p.active;
+    return count;
+  }
+  int touching() {
+    int count = 0;
+    for (int k = 0; k < network.rods(); ++k) count += touching(k);
     return count;
   }
 
  private:
   void settle() {
-    ContactTerms& terms = solver.terms();
+    ContactNetwork& contacts = solver.contacts();
     NewtonOptions options;
     options.warm = true;
     options.tolerance = 1e-13;
-    terms.set_exact(true);
+    contacts.set_exact(true);
     for (int round = 0; round < 2; ++round) {
-      terms.begin(state);
-      ok = Newton(network, &terms).run(state, options, {}).status == Status::solved;
+      contacts.begin(state);
+      ok = Newton(network, &contacts).run(state, options, {}).status == Status::solved;
     }
-    terms.set_exact(false);
-    terms.stand_at(state);
+    contacts.set_exact(false);
+    contacts.stand_at(state);
   }
 };
 
@@ -78,7 +93,7 @@ void compare(const SystemProblem& problem, const std::vector<Parameter>& paramet
   Touching touching(problem);
   REQUIRE(touching.ok);
   REQUIRE(touching.touching() > 0);
-  const Sensitivity s(touching.network, touching.state, &touching.solver.terms());
+  const Sensitivity s(touching.network, touching.state, &touching.solver.contacts());
   std::vector<Measure> measures;
   for (const What what : {What::position, What::tangent, What::force, What::reaction_force, What::reaction_moment,
                           What::min_bend_radius, What::bend, What::length}) {
@@ -97,7 +112,7 @@ void compare(const SystemProblem& problem, const std::vector<Parameter>& paramet
       Touching there(changed(problem, p, side == 0 ? h : -h), touching);
       ok = there.ok && there.touching() == touching.touching();
       if (!ok) break;
-      const Sensitivity at(there.network, there.state, &there.solver.terms());
+      const Sensitivity at(there.network, there.state, &there.solver.contacts());
       for (const Measure& m : measures) values[side].push_back(at.measure(m).value);
     }
     const std::vector<double> forward = s.forward(measures, p);
@@ -160,4 +175,35 @@ TEST_CASE("sensitivity: a hose that lies over an edge, which slides along it", "
   const SlidingContacts& sliding = touching.solver.terms().sliding();
   REQUIRE(std::any_of(sliding.points().begin(), sliding.points().end(), [](const auto& p) { return p.active && p.bend < 0; }));
   compare(problem, all_parameters(), 60);
+}
+
+TEST_CASE("sensitivity: three joined hoses of which two lie on a floor", "[sensitivity]") {
+  const HalfSpace floor(Vec3(0.05, 0, 1), -0.11);
+  SystemProblem problem;
+  const Section section = Section::round(0.02, 0.004, Material::from_poisson(5e6, 0.4, 1100));
+  const Frame ends[] = {Frame::looking({-0.42, 0, 0}, {1, 0, -0.2}, {0, 0, 1}), Frame::looking({0.42, 0.02, 0.03}, {-1, 0.1, -0.3}, {0, 0, 1}),
+                        Frame::looking({0.03, 0.35, 0.25}, {0, -1, -0.4}, {0, 0, 1})};
+  BranchPoint tee;
+  for (int k = 0; k < 3; ++k) {
+    RodProblem rod;
+    rod.rod = Rod::uniform(k == 2 ? 0.42 : 0.5, section, 16);
+    rod.gravity = {0.3, 0.2, -9.81};
+    rod.holds = {{0, ends[k]}};
+    rod.surroundings = &floor;
+    problem.rods.push_back(rod);
+  }
+  const Frame middle = Frame::looking({0, 0, 0}, {1, 0, 0}, {0, 0, 1});
+  for (const auto& [rod, along] : {std::pair{0, Vec3(1, 0, 0)}, std::pair{1, Vec3(-1, 0, 0)}, std::pair{2, Vec3(0, -1, -0.3)}})
+    tee.sections.push_back({rod, problem.rods[rod].rod.length, middle.inverse() * Frame::looking({0, 0, 0}, along, {0, 0, 1})});
+  problem.branches.push_back(tee);
+  Touching touching(problem);
+  REQUIRE(touching.ok);
+  CHECK(touching.touching(0) > 0);
+  CHECK(touching.touching(1) > 0);
+  std::vector<Parameter> parameters = all_parameters();
+  std::erase_if(parameters, [](const Parameter& p) { return p.index > 0 && p.kind != Kind::gravity; });
+  parameters.push_back({Kind::length, 2});
+  parameters.push_back({Kind::hold_position, 2, 0, 0, 2});
+  parameters.push_back({Kind::joint_orientation, 0, 0, 2, 1});
+  compare(problem, parameters, 100);
 }
