@@ -1,31 +1,16 @@
 #include "base/parallel.h"
 
-#include <dlfcn.h>
-
 #include <algorithm>
-#include <cstdlib>
 #include <exception>
-#include <filesystem>
 #include <mutex>
 #include <thread>
+
+#include "base/load_module.h"
 
 namespace tendril {
 namespace {
 
 using RunWorkers = void(int workers, void (*work)(void* data, int worker), void* data);
-
-RunWorkers* load() {
-  std::filesystem::path folder;
-  if (const char* named = std::getenv("TENDRIL_MODULES"); named && *named) {
-    folder = named;
-  } else {
-    std::error_code error;
-    folder = std::filesystem::read_symlink("/proc/self/exe", error).parent_path() / "modules";
-    if (error) return nullptr;
-  }
-  void* handle = ::dlopen((folder / "tendril_threads.so").c_str(), RTLD_NOW | RTLD_LOCAL);
-  return handle ? reinterpret_cast<RunWorkers*>(::dlsym(handle, "tendril_run_workers")) : nullptr;
-}
 
 struct Job {
   const std::function<void(int)>& work;
@@ -52,7 +37,7 @@ int thread_count(int requested) {
 void run_workers(int workers, const std::function<void(int worker)>& work) {
   Job job{work, {}, nullptr};
   RunWorkers* const run = workers > 1 ? [] {
-    static RunWorkers* const loaded = load();
+    static auto* const loaded = reinterpret_cast<RunWorkers*>(load_module("tendril_threads.so", "tendril_run_workers").address);
     return loaded;
   }() : nullptr;
   if (run)

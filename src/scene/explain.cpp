@@ -2,19 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "base/error.h"
 #include "base/nearest_name.h"
+#include "base/number_text.h"
+#include "scene/reach.h"
 
 namespace tendril {
 namespace {
-
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", value);
-  return text;
-}
 
 std::string counted(std::size_t count, const char* one, const char* many) {
   return std::to_string(count) + " " + (count == 1 ? one : many);
@@ -40,7 +35,7 @@ void explain_holds(const PlacedRod& rod, std::vector<ExplainedItem>& out) {
   if (rod.holds().empty()) text += ": the rod can move freely and cannot be solved";
   out.push_back({rod.name(), "holds", !rod.holds().empty(), text});
   out.push_back({rod.name(), "extra turns", turns != 0,
-                 turns != 0 ? number(turns) + " full turns about the tangent" : "no hold asks for any"});
+                 turns != 0 ? number_text(turns) + " full turns about the tangent" : "no hold asks for any"});
 }
 
 void explain_design(const Rod& rod, const std::string& name, std::vector<ExplainedItem>& out) {
@@ -60,14 +55,21 @@ void explain_terms(const Scene& scene, const PlacedRod& rod, std::vector<Explain
   const double mass = rod.rod().mass();
   const bool heavy = !g.isZero(0) && mass > 0;
   out.push_back({rod.name(), "gravity", heavy,
-                 heavy ? "weight " + number(mass * g.norm()) + " N"
+                 heavy ? "weight " + number_text(mass * g.norm()) + " N"
                        : g.isZero(0) ? "the scene has no gravity" : "the rod has no mass"});
   out.push_back({rod.name(), "loads", !rod.loads().empty(),
                  rod.loads().empty() ? "none given" : counted(rod.loads().size(), "dead load", "dead loads")});
-  const std::size_t obstacles = scene.obstacles().size();
-  out.push_back({rod.name(), "contact", obstacles > 0,
-                 obstacles > 0 ? "with " + counted(obstacles, "obstacle", "obstacles") + ", at the rod's surface, without friction"
-                               : "the scene has no obstacles"});
+  std::string far;
+  std::size_t near = 0;
+  for (const PlacedObstacle& obstacle : scene.obstacles())
+    if (can_reach(rod, obstacle))
+      ++near;
+    else
+      far += (far.empty() ? "" : ", ") + obstacle.name;
+  std::string why = "the scene has no obstacles";
+  if (near > 0) why = "with " + counted(near, "obstacle", "obstacles") + ", at the rod's surface, without friction";
+  if (near == 0 && !far.empty()) why = "no obstacle is in reach";
+  out.push_back({rod.name(), "contact", near > 0, why + (far.empty() ? "" : "; out of reach: " + far)});
 }
 
 void explain_method(const PlacedRod& rod, const SolveOptions& options, std::vector<ExplainedItem>& out) {
@@ -81,7 +83,7 @@ void explain_method(const PlacedRod& rod, const SolveOptions& options, std::vect
   std::string element = se3 ? "se3: frames at vertices, fourth order" : "staggered: second order";
   if (!se3 && options.clamp == ClampRule::thesis) element = "staggered with the thesis's clamp: first order";
   out.push_back({rod.name(), "element", true, element});
-  out.push_back({rod.name(), "solver", true, "mixed-stress Newton, block LDL^T along the rod, tolerance " + number(options.tolerance)});
+  out.push_back({rod.name(), "solver", true, "mixed-stress Newton, block LDL^T along the rod, tolerance " + number_text(options.tolerance)});
   out.push_back({rod.name(), "error estimate", options.error,
                  options.error ? "from a second mesh" : "not asked for (error = true)"});
 }
@@ -100,6 +102,28 @@ void explain_trees(const Scene& scene, std::vector<ExplainedItem>& out) {
   out.push_back({"scene", "distance trees", built > 0, why});
 }
 
+void explain_pairs(const Scene& scene, std::vector<ExplainedItem>& out) {
+  const std::size_t all = scene.rods().size() * scene.obstacles().size();
+  std::size_t near = 0;
+  for (const auto& rod : scene.rods())
+    for (const PlacedObstacle& obstacle : scene.obstacles()) near += can_reach(*rod, obstacle);
+  out.push_back({"scene", "collision pairs", near > 0,
+                 all == 0 ? "no pair of a rod and an obstacle"
+                          : std::to_string(near) + " of " + counted(all, "pair", "pairs") + " of a rod and an obstacle; " +
+                                std::to_string(all - near) + " out of reach"});
+}
+
+void explain_branch(const Scene& scene, const PlacedBranch& branch, std::vector<ExplainedItem>& out) {
+  std::string text;
+  for (const JoinedPlace& place : branch.places)
+    text += (text.empty() ? "" : ", ") + ("'" + place.rod + "' at " + scene.rod(place.rod).describe(place.at));
+  const char* held = branch.position && branch.orientation ? "clamped"
+                     : branch.position                     ? "pinned"
+                     : branch.orientation                  ? "turned (orientation only)"
+                                                           : "free: six unknowns";
+  out.push_back({branch.name, "branch point", true, "joins " + text + "; " + held});
+}
+
 }  // namespace
 
 Explanation explain(const Scene& scene, const SolveOptions& options) {
@@ -107,8 +131,9 @@ Explanation explain(const Scene& scene, const SolveOptions& options) {
   std::vector<ExplainedItem>& out = result.items;
   const Vec3& g = scene.gravity();
   out.push_back({"scene", "gravity", !g.isZero(0),
-                 g.isZero(0) ? "zero" : "{" + number(g.x()) + ", " + number(g.y()) + ", " + number(g.z()) + "} m/s^2"});
+                 g.isZero(0) ? "zero" : "{" + number_text(g.x()) + ", " + number_text(g.y()) + ", " + number_text(g.z()) + "} m/s^2"});
   explain_trees(scene, out);
+  explain_pairs(scene, out);
   out.push_back({"scene", "contact between rods", false, "rods do not feel each other or themselves"});
   out.push_back({"scene", "picture", false, "the renderer is loaded when a view is saved"});
   for (const auto& rod : scene.rods()) {
@@ -117,6 +142,7 @@ Explanation explain(const Scene& scene, const SolveOptions& options) {
     explain_terms(scene, *rod, out);
     explain_method(*rod, options, out);
   }
+  for (const auto& branch : scene.branches()) explain_branch(scene, *branch, out);
   return result;
 }
 

@@ -12,7 +12,7 @@ namespace tendril {
 
 /// One term, method or structure of the model, used or left out, and the reason.
 struct ExplainedItem {
-  std::string subject;  ///< a rod's name, or "scene"
+  std::string subject;  ///< the name of a rod or branch point, or "scene"
   std::string name;     ///< "gravity", "contact", "solver", ...
   bool used = false;
   std::string why;
@@ -24,7 +24,7 @@ struct Explanation {
   /// True when the scene or some rod uses what has this name. Throws UsageError for a name that no item has.
   bool uses(std::string_view name) const;
 
-  /// Lines of text: the scene first, then each rod; "-" marks what is left out.
+  /// Lines of text: the scene first, then each rod and branch point; "-" marks what is left out.
   std::string text() const;
 };
 

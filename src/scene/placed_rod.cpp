@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "base/error.h"
+#include "base/number_text.h"
 #include "base/units.h"
 
 namespace tendril {
@@ -13,13 +13,7 @@ namespace {
 constexpr double same_place = 1e-9;  // of the length: two holds nearer than this are at one place
 constexpr double same_angle = 1e-9;  // rad
 
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", value);
-  return text;
-}
-
-std::string vector(const Vec3& v) { return "{" + number(v.x()) + ", " + number(v.y()) + ", " + number(v.z()) + "}"; }
+std::string vector(const Vec3& v) { return "{" + number_text(v.x()) + ", " + number_text(v.y()) + ", " + number_text(v.z()) + "}"; }
 
 double angle_between(const Quat& a, const Quat& b) { return log_rotation(a.conjugate() * b).norm(); }
 
@@ -43,13 +37,13 @@ double PlacedRod::place(std::string_view end) const {
 std::string PlacedRod::describe(double at) const {
   if (at <= 0) return "its start";
   if (at >= rod_.length) return "its finish";
-  return number(at) + " m";
+  return number_text(at) + " m";
 }
 
 void PlacedRod::check_place(const char* who, double at) const {
   if (!std::isfinite(at) || at < 0 || at > rod_.length)
-    throw UsageError(std::string(who) + ": the place on '" + name_ + "' is " + number(at) + " m, expected 0 to " +
-                     number(rod_.length) + " m (its length)");
+    throw UsageError(std::string(who) + ": the place on '" + name_ + "' is " + number_text(at) + " m, expected 0 to " +
+                     number_text(rod_.length) + " m (its length)");
 }
 
 std::vector<Hold>::iterator PlacedRod::find(double at) {
@@ -85,7 +79,7 @@ void PlacedRod::hold(const Hold& wanted) {
   const double turn = angle_between(old->frame.rotation, wanted.frame.rotation);
   if (old->orientation && wanted.orientation && turn > same_angle)
     throw UsageError("placed_rod:hold: contradictory holds: '" + name_ + "' is already held at " + describe(wanted.at) +
-                     " in an orientation that differs by " + number(turn / units::deg) +
+                     " in an orientation that differs by " + number_text(turn / units::deg) +
                      " degrees; release it there first");
   Hold merged = wanted;
   const bool complementary = old->position != wanted.position && old->orientation != wanted.orientation;

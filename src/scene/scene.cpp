@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/nearest_name.h"
+#include "scene/reach.h"
 #include "statics/solve.h"
 
 namespace tendril {
@@ -14,25 +15,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
-
-/// False when no shape that the rod can take comes near the obstacle's box. A point of the rod is no farther from a hold
-/// than the length between them, give or take some stretch.
-bool can_reach(const PlacedRod& rod, const PlacedObstacle& obstacle) {
-  const auto* surface = std::get_if<std::shared_ptr<const TriangleSurface>>(&obstacle.body.shape);
-  if (!surface) return false;  // a solid has no tree to build
-  const Frame to_mesh = obstacle.body.pose.inverse();
-  const double reach = 1.2 * rod.rod().length + rod.rod().largest_radius();
-  double both = 0;
-  for (const Hold& hold : rod.holds()) {
-    if (!hold.position) continue;
-    const double distance = std::sqrt((*surface)->box().squaredExteriorDistance((to_mesh * hold.frame).at));
-    if (distance > reach) return false;
-    const bool at_end = hold.at == 0 || hold.at == rod.rod().length;
-    if (at_end) both += distance;
-  }
-  const bool held_at_both = rod.hold_at(0) && rod.hold_at(rod.rod().length);
-  return !held_at_both || both <= reach;
-}
 
 void build_tree(const PlacedObstacle& obstacle) {
   const auto& surface = *std::get<std::shared_ptr<const TriangleSurface>>(obstacle.body.shape);
@@ -224,7 +206,8 @@ SceneEquilibrium Scene::solve(const SolveOptions& options, const RunContext& con
   result.obstacles = obstacles_;
   const Clock::time_point building = Clock::now();
   for (const PlacedObstacle& obstacle : obstacles_)
-    if (std::any_of(rods_.begin(), rods_.end(), [&](const auto& rod) { return can_reach(*rod, obstacle); }))
+    if (obstacle.triangles() > 0 &&
+        std::any_of(rods_.begin(), rods_.end(), [&](const auto& rod) { return can_reach(*rod, obstacle); }))
       build_tree(obstacle);
   result.seconds_for_trees = seconds_since(building);
 

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 #include "base/error.h"
 #include "base/nearest_name.h"
+#include "base/number_text.h"
 
 namespace tendril {
 namespace {
@@ -173,13 +173,10 @@ Reaction SceneEquilibrium::reaction(const SolvedRod& rod, double at) const {
   std::string places;
   for (const Reaction& reaction : rod.equilibrium.reactions) {
     if (std::abs(reaction.s - at) <= 1e-9 * length) return reaction;
-    char text[32];
-    std::snprintf(text, sizeof text, "%.6g m", reaction.s);
-    places += (places.empty() ? "" : ", ") + std::string(reaction.s <= 0 ? "start" : reaction.s >= length ? "finish" : text);
+    places += (places.empty() ? "" : ", ") +
+              (reaction.s <= 0 ? "start" : reaction.s >= length ? "finish" : number_text(reaction.s) + " m");
   }
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", at);
-  throw UsageError("equilibrium: '" + rod.name + "' is not held at " + text + " m (held at: " + places + ")");
+  throw UsageError("equilibrium: '" + rod.name + "' is not held at " + number_text(at) + " m (held at: " + places + ")");
 }
 
 }  // namespace tendril

@@ -28,7 +28,7 @@ struct ContactForce {
 
 /// What a support exerts on the rod at a hold, in world axes, the moment about the centre-line point of the hold.
 struct Reaction {
-  double s;
+  double s = 0;
   Vec3 force = Vec3::Zero();   ///< N
   Vec3 moment = Vec3::Zero();  ///< N m
 };
@@ -101,6 +101,12 @@ struct SystemEquilibrium {
     for (const Equilibrium& rod : rods)
       if (rod.s.empty()) return false;
     return !rods.empty();
+  }
+  /// J, of all rods.
+  double energy() const {
+    double sum = 0;
+    for (const Equilibrium& rod : rods) sum += rod.energy.total();
+    return sum;
   }
 };
 

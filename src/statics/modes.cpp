@@ -90,12 +90,6 @@ double largest_distance(const SystemEquilibrium& a, const SystemEquilibrium& b) 
   return largest;
 }
 
-double energy_of(const SystemEquilibrium& eq) {
-  double sum = 0;
-  for (const Equilibrium& rod : eq.rods) sum += rod.energy.total();
-  return sum;
-}
-
 /// What kinds of first guess there are for one rod.
 constexpr GuessVariant variants[] = {{-1, 90, 0}, {-1, -90, 0}, {-1, 180, 0}, {-1, 0, 1}, {-1, 0, -1}, {-1, 0, 2}, {-1, 0, -2}, {-1, 45, 0}};
 
@@ -158,11 +152,11 @@ std::vector<SystemEquilibrium> other_equilibria(const SystemProblem& problem, co
       starts.push_back(network.state_from(guess.rods, guess.branches));
     }
   std::vector<SystemEquilibrium> others;
-  const double scale = std::abs(energy_of(found)) + 1e-300;
+  const double scale = std::abs(found.energy()) + 1e-300;
   const auto known = [&](const SystemEquilibrium& eq) {
     const auto same = [&](const SystemEquilibrium& other) {
       return largest_distance(eq, other) < same_place ||
-             (drifts && std::abs(energy_of(eq) - energy_of(other)) < same_energy * scale);
+             (drifts && std::abs(eq.energy() - other.energy()) < same_energy * scale);
     };
     return same(found) || std::any_of(others.begin(), others.end(), same);
   };
@@ -172,7 +166,7 @@ std::vector<SystemEquilibrium> other_equilibria(const SystemProblem& problem, co
     if (eq.ok() && eq.rods.front().stable && !known(eq)) others.push_back(std::move(eq));
   }
   std::sort(others.begin(), others.end(),
-            [](const SystemEquilibrium& a, const SystemEquilibrium& b) { return energy_of(a) < energy_of(b); });
+            [](const SystemEquilibrium& a, const SystemEquilibrium& b) { return a.energy() < b.energy(); });
   return others;
 }
 

@@ -42,12 +42,6 @@ Move farthest(const SystemEquilibrium& a, const SystemEquilibrium& b) {
   return most;
 }
 
-double energy_of(const SystemEquilibrium& eq) {
-  double sum = 0;
-  for (const Equilibrium& rod : eq.rods) sum += rod.energy.total();
-  return sum;
-}
-
 void check(const SystemProblem& problem, const std::vector<HeldPath>& paths, const MotionOptions& motion) {
   if (paths.empty()) throw UsageError("motion: no hold moves; give at least one path");
   if (motion.steps < 1) throw UsageError("motion: " + std::to_string(motion.steps) + " steps, expected at least 1");
@@ -103,7 +97,7 @@ Motion move_holds(const SystemProblem& given, const std::vector<HeldPath>& paths
       return out;
     }
     if (!smooth) {
-      out.snaps.push_back({t, move.rod, move.s, move.distance, energy_of(here) - energy_of(found)});
+      out.snaps.push_back({t, move.rod, move.s, move.distance, here.energy() - found.energy()});
       if (out.steps.back().t < t) out.steps.push_back({t, here});
     }
     if (arrives || !smooth) out.steps.push_back({there, found});

@@ -175,12 +175,6 @@ void begin_where_it_was(const SystemEquilibrium& from, SystemProblem& problem) {
   }
 }
 
-double energy_of(const SystemEquilibrium& eq) {
-  double sum = 0;
-  for (const Equilibrium& rod : eq.rods) sum += rod.energy.total();
-  return sum;
-}
-
 }  // namespace
 
 bool has_sliding_clips(const SystemProblem& problem) {
@@ -230,7 +224,7 @@ SystemEquilibrium solve_sliding(const SystemProblem& given, const SolveOptions& 
       break;
     }
     // A step that does not lower the energy is halved.
-    const double before = energy_of(best), rounding = 1e-12 * std::abs(before) + 1e-300;
+    const double before = best.energy(), rounding = 1e-12 * std::abs(before) + 1e-300;
     bool lower = false;
     for (int half = 0; half < 12 && !lower; ++half, share *= 0.5) {
       SystemProblem trial = problem;
@@ -242,7 +236,7 @@ SystemEquilibrium solve_sliding(const SystemProblem& given, const SolveOptions& 
         set_status(best, found.rods.front().status, found.rods.front().message);
         break;
       }
-      lower = found.ok() && energy_of(found) <= before + rounding;
+      lower = found.ok() && found.energy() <= before + rounding;
       if (!lower) continue;
       problem = std::move(trial);
       solver = std::move(next);

@@ -59,3 +59,23 @@ TEST_CASE("sections that vary or differ between their axes are told", "[scene][e
   CHECK(text.uses("preformed shape"));
   CHECK_THAT(text.text(), Contains("finish free") && Contains("2 parts"));
 }
+
+TEST_CASE("pairs out of reach and branch points are told", "[scene][explain]") {
+  Scene scene(earth);
+  const Section section = soft_section();
+  const Frame start = Frame::looking({0, 0, 0}, {1, 0, 0});
+  PlacedRod& a = scene.add(PlacedRod("a", Rod::uniform(0.5, section, 10), start, std::nullopt));
+  PlacedRod& b = scene.add(PlacedRod("b", Rod::uniform(0.5, section, 10), std::nullopt, start.moved({0.9, 0, 0})));
+  scene.join("tee", {{&a, 0.5, std::nullopt}, {&b, 0, std::nullopt}}, std::nullopt);
+  CHECK_FALSE(explain(scene).uses("collision pairs"));
+  CHECK_THAT(explain(scene).text(), Contains("no pair of a rod and an obstacle") &&
+                                        Contains("joins 'a' at its finish, 'b' at its start; free: six unknowns"));
+  scene.add(sheet("near", {0, 0, -0.2}));
+  scene.add(sheet("far", {0, 0, -20}));
+  CHECK(explain(scene).uses("collision pairs"));
+  CHECK_THAT(explain(scene).text(), Contains("2 of 4 pairs of a rod and an obstacle; 2 out of reach") &&
+                                        Contains("with 1 obstacle, at the rod's surface, without friction; out of reach: far"));
+  scene.remove("near");
+  CHECK_FALSE(explain(scene).uses("contact"));
+  CHECK_THAT(explain(scene).text(), Contains("no obstacle is in reach; out of reach: far"));
+}
