@@ -35,10 +35,12 @@ struct BlockGrid {
 
 class BlockMap {
  public:
-  /// A hull whose surface may pass through a block, and its field's bounds there.
+  /// A hull whose surface may pass through a block, its field's bounds there, and which of its planes count there.
   struct Entry {
     int hull;
     float low, high;
+    std::uint16_t top, count;  ///< the plane that is the highest at the block's middle; planes, 0 for a capsule
+    std::size_t first;         ///< see planes()
   };
   static constexpr int empty = -1, interior = -2;
 
@@ -58,13 +60,15 @@ class BlockMap {
   int at(std::size_t number) const { return index_[number]; }
   const Entry* begin(int block) const { return &entries_[first_[block]]; }
   const Entry* end(int block) const { return &entries_[0] + first_[block + 1]; }
+  /// The numbers of the entry's planes in its hull.
+  const std::uint16_t* planes(const Entry& entry) const { return &numbers_[shares_[entry.hull].worker][entry.first]; }
   std::size_t bytes() const;
 
  private:
   struct Worker;
   struct Found {
     std::size_t number;
-    float low, high;
+    Entry entry;
   };
   struct Share {
     int worker = 0;
@@ -81,6 +85,7 @@ class BlockMap {
   std::vector<Entry> entries_;
   std::vector<Share> shares_;        ///< by hull: where its blocks are found
   std::vector<std::vector<Found>> found_;  ///< by worker
+  std::vector<std::vector<std::uint16_t>> numbers_;  ///< by worker: planes of its entries
   std::vector<std::vector<float>> planes_;  ///< by worker: the planes of each level of descent
 };
 

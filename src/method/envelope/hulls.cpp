@@ -14,6 +14,12 @@ constexpr int edge_planes = 64;
 
 int filled_up(int count) { return (count + 15) / 16 * 16; }
 
+/// The angle between unit vectors, by the chord between them: the series is good to 1e-4 where it is used.
+double angle_between(const Vec3& a, const Vec3& b) {
+  const double squared = (a - b).squaredNorm();
+  return squared < 0.25 ? std::sqrt(squared) * (1 + squared / 24) : std::acos(std::clamp(1 - 0.5 * squared, -1.0, 1.0));
+}
+
 int steps_between(double angle, double step) { return std::max(0, static_cast<int>(std::ceil(angle / step)) - 1); }
 
 }  // namespace
@@ -33,7 +39,7 @@ void SweptHull::add_edge_normals(const ConvexHull& hull) {
   std::vector<Edge> edges;
   for (int f = 0; f < hull.size(); ++f)
     for (const int other : hull.facet(f).neighbour)
-      if (other > f) edges.push_back({std::acos(std::clamp(hull.normal(f).dot(hull.normal(other)), -1.0, 1.0)), f, other});
+      if (other > f) edges.push_back({angle_between(hull.normal(f), hull.normal(other)), f, other});
   double step = 0.08;
   for (;; step *= 1.25) {
     int planes = 0;
@@ -58,7 +64,7 @@ void SweptHull::collect_normals(const ConvexHull& hull) {
   const int found = static_cast<int>(normals_.size());
   count_ = found + 2 * direction_pairs;
   room_ = filled_up(count_);
-  rows_.assign(5 * room_, 0.0f);
+  rows_.assign(plane_rows * room_, 0.0f);
   for (int i = 0; i < found; ++i)
     for (int k = 0; k < 3; ++k) rows_[k * room_ + i] = static_cast<float>(normals_[i][k]);
 }
@@ -119,12 +125,12 @@ void SweptHull::build(const CloudHull& cloud, std::span<const Cloud> clouds, con
   for (int i = 0; i < room_; ++i) {
     float& offset = rows_[3 * room_ + i];
     offset = i < count_ ? offset + static_cast<float>(radius) : 1e30f;
-    rows_[4 * room_ + i] = std::abs(rows_[i]) + std::abs(rows_[room_ + i]) + std::abs(rows_[2 * room_ + i]);
+    rows_[4 * room_ + i] = static_cast<float>(i);
   }
 }
 
-FieldBounds SweptHull::bounds(const Kernel& kernel, const Cube& cube) const {
-  if (!is_capsule_) return kernel.bounds(planes(), cube);
+// A distance changes by no more than one goes.
+FieldBounds SweptHull::capsule_bounds(const Cube& cube) const {
   const Vec3 a(capsule_.a[0], capsule_.a[1], capsule_.a[2]);
   const Vec3 along(capsule_.along[0], capsule_.along[1], capsule_.along[2]);
   const Vec3 from = Vec3(cube.middle[0], cube.middle[1], cube.middle[2]) - a;

@@ -24,7 +24,8 @@ class SweptHull {
   float low(int axis) const { return low_[axis]; }    ///< box of the field's inside, m
   float high(int axis) const { return high_[axis]; }
 
-  FieldBounds bounds(const Kernel& kernel, const Cube& cube) const;
+  /// Of a capsule, within a cube.
+  FieldBounds capsule_bounds(const Cube& cube) const;
   std::size_t bytes() const { return rows_.capacity() * sizeof(float); }
 
  private:
@@ -34,7 +35,7 @@ class SweptHull {
 
   bool is_capsule_ = false;
   Capsule capsule_{};
-  std::vector<float> rows_;  ///< x, y, z, offset, reach of `room_` floats each
+  std::vector<float> rows_;  ///< x, y, z, offset, number of `room_` floats each
   int count_ = 0, room_ = 0;
   float low_[3]{}, high_[3]{};
   std::vector<Vec3> normals_;  ///< scratch

@@ -23,12 +23,13 @@ struct NormalArrays {
   int count;
 };
 
-/// Half-spaces n . p <= offset. `reach` is |n|_1: how far n . p can differ within a cube of half-width 1. `count` is a
-/// multiple of 16 (the tail holds planes that are never reached).
+/// Half-spaces n . p <= offset, each with a number. `count` is a multiple of 16 (the tail holds planes that are never
+/// reached).
 struct PlaneArrays {
-  const float *x, *y, *z, *offset, *reach;
+  const float *x, *y, *z, *offset, *number;
   int count;
 };
+constexpr int plane_rows = 5;
 
 /// All points nearer than `radius` to a segment from `a` along `along`.
 struct Capsule {
@@ -43,9 +44,16 @@ struct Extreme {
   int low_index, high_index;
 };
 
-/// What a convex field is within a cube: at least `low` at its lowest, nowhere more than `high`.
+/// What a convex field is within a cube: nowhere less than `low`, nowhere more than `high`.
 struct FieldBounds {
   float low, high;
+};
+
+/// The field of planes within a cube, and the planes that can be the highest somewhere in it.
+struct Narrowed {
+  FieldBounds bounds;
+  int top = 0;    ///< the number of the plane that is the highest at the cube's middle
+  int count = 0;  ///< planes left, filled up to a multiple of 16; 0 where the field is all above or all below 0
 };
 
 /// A cube's middle and half its width, m.
@@ -69,11 +77,12 @@ struct Kernel {
   /// out[i] = max over planes of n . p_i - offset.
   void (*distances)(const PointArrays& points, const PlaneArrays& planes, float* out);
 
-  /// Bounds of max over planes of n . p - offset within a cube.
-  FieldBounds (*bounds)(const PlaneArrays& planes, const Cube& cube);
-  /// The planes that can reach `least` within the cube, copied to rows of `room` floats at `to`: x, y, z, offset, reach.
-  /// Returns how many, filled up to a multiple of 16 with planes that are never reached.
-  int (*relevant)(const PlaneArrays& planes, const Cube& cube, float least, float* to, int room);
+  /// Bounds of max over planes of n . p - offset within a cube. Where they leave 0 between them (by `slack`), the planes
+  /// that are not everywhere in the cube below the one that is the highest at its middle are copied to rows of `room`
+  /// floats at `to`: x, y, z, offset, number.
+  Narrowed (*narrow)(const PlaneArrays& planes, const Cube& cube, float slack, float* to, int room);
+  /// All planes lie below one plane (x, y, z, offset) everywhere in the cube, by `slack` at least.
+  bool (*all_below)(const PlaneArrays& planes, const float* plane, const Cube& cube, float slack);
 
   /// field[i] = min(field[i], max over planes of n . p_i - offset) at 512 nodes; `field` is 64-byte aligned.
   void (*lower_by_planes)(const PlaneArrays& planes, const NodeGrid& nodes, float* field);

@@ -29,6 +29,7 @@ inline Floats fma(Floats a, Floats b, Floats c) { return {_mm512_fmadd_ps(a.v, b
 inline Floats larger(Floats a, Floats b) { return {_mm512_max_ps(a.v, b.v)}; }
 inline Floats smaller(Floats a, Floats b) { return {_mm512_min_ps(a.v, b.v)}; }
 inline Floats root(Floats a) { return {_mm512_sqrt_ps(a.v)}; }
+inline Floats size(Floats a) { return {_mm512_abs_ps(a.v)}; }
 inline Floats::Mask above(Floats a, Floats b) { return _mm512_cmp_ps_mask(a.v, b.v, _CMP_GT_OQ); }
 inline Floats choose(Floats::Mask m, Floats yes, Floats no) { return {_mm512_mask_mov_ps(no.v, m, yes.v)}; }
 inline std::uint32_t bits(Floats::Mask m) { return m; }
@@ -50,6 +51,7 @@ inline Floats fma(Floats a, Floats b, Floats c) { return {_mm256_fmadd_ps(a.v, b
 inline Floats larger(Floats a, Floats b) { return {_mm256_max_ps(a.v, b.v)}; }
 inline Floats smaller(Floats a, Floats b) { return {_mm256_min_ps(a.v, b.v)}; }
 inline Floats root(Floats a) { return {_mm256_sqrt_ps(a.v)}; }
+inline Floats size(Floats a) { return {_mm256_andnot_ps(_mm256_set1_ps(-0.0f), a.v)}; }
 inline Floats::Mask above(Floats a, Floats b) { return _mm256_cmp_ps(a.v, b.v, _CMP_GT_OQ); }
 inline Floats choose(Floats::Mask m, Floats yes, Floats no) { return {_mm256_blendv_ps(no.v, yes.v, m)}; }
 inline std::uint32_t bits(Floats::Mask m) { return static_cast<std::uint32_t>(_mm256_movemask_ps(m)); }
@@ -81,6 +83,7 @@ inline Floats fma(Floats a, Floats b, Floats c) { return each([&](int i) { retur
 inline Floats larger(Floats a, Floats b) { return each([&](int i) { return a.v[i] > b.v[i] ? a.v[i] : b.v[i]; }); }
 inline Floats smaller(Floats a, Floats b) { return each([&](int i) { return a.v[i] < b.v[i] ? a.v[i] : b.v[i]; }); }
 inline Floats root(Floats a) { return each([&](int i) { return std::sqrt(a.v[i]); }); }
+inline Floats size(Floats a) { return each([&](int i) { return std::abs(a.v[i]); }); }
 inline Floats::Mask above(Floats a, Floats b) {
   Floats::Mask m;
   for (int i = 0; i < Floats::width; ++i) m.m[i] = a.v[i] > b.v[i];

@@ -72,37 +72,65 @@ inline Floats at_middle(const PlaneArrays& planes, const Cube& cube, int k) {
                  fma(load(planes.x + k), all(cube.middle[0]), less(all(0), load(planes.offset + k)))));
 }
 
-inline FieldBounds bounds(const PlaneArrays& planes, const Cube& cube) {
-  const Floats half = all(cube.half);
-  Floats low = all(-1e30f), high = low;
-  for (int k = 0; k < planes.count; k += Floats::width) {
-    const Floats value = at_middle(planes, cube, k), reach = times(half, load(planes.reach + k));
-    low = larger(low, less(value, reach));
-    high = larger(high, add(value, reach));
-  }
-  return {largest(low), largest(high)};
+/// How far two planes' heights can draw apart within a cube of half-width 1, or, from a plane without slope, one's.
+inline Floats reach(const PlaneArrays& planes, int k, const float* from) {
+  return add(add(size(less(load(planes.x + k), all(from[0]))), size(less(load(planes.y + k), all(from[1])))),
+             size(less(load(planes.z + k), all(from[2]))));
 }
 
-inline int relevant(const PlaneArrays& planes, const Cube& cube, float least, float* to, int room) {
-  const Floats half = all(cube.half), bound = all(least);
+inline Narrowed narrow(const PlaneArrays& planes, const Cube& cube, float slack, float* to, int room) {
+  const Floats half = all(cube.half);
+  constexpr float level[3] = {0, 0, 0};
+  Floats low = all(-1e30f), high = low, highest = low, at = all(0);
+  for (int k = 0; k < planes.count; k += Floats::width) {
+    const Floats value = at_middle(planes, cube, k), way = times(half, reach(planes, k, level));
+    low = larger(low, less(value, way));
+    high = larger(high, add(value, way));
+    at = choose(above(value, highest), all(static_cast<float>(k)), at);
+    highest = larger(highest, value);
+    store(to + k, value);  // for the second round; where the copies go later
+  }
+  Narrowed result{{largest(low), largest(high)}};
+  if (result.bounds.low > slack || result.bounds.high < -slack) return result;
+  float values[Floats::width], places[Floats::width];
+  store(values, highest);
+  store(places, at);
+  int best = 0;
+  for (int i = 1; i < Floats::width; ++i)
+    if (values[i] > values[best] || (values[i] == values[best] && places[i] < places[best])) best = i;
+  const int top = static_cast<int>(places[best]) + best;
+  const float normal[3] = {planes.x[top], planes.y[top], planes.z[top]};
+  const Floats bound = all(values[best] - slack);
+  result.top = static_cast<int>(planes.number[top]);
+  // Copies never overtake the values that are still to be read.
   int count = 0;
   for (int k = 0; k < planes.count; k += Floats::width) {
-    const Floats high = add(at_middle(planes, cube, k), times(half, load(planes.reach + k)));
-    for (std::uint32_t found = bits(above(high, bound)); found; found &= found - 1) {
+    const Floats most = fma(half, reach(planes, k, normal), load(to + k));
+    for (std::uint32_t found = bits(above(most, bound)); found; found &= found - 1) {
       const int i = k + __builtin_ctz(found);
       to[count] = planes.x[i];
       to[count + room] = planes.y[i];
       to[count + 2 * room] = planes.z[i];
       to[count + 3 * room] = planes.offset[i];
-      to[count + 4 * room] = planes.reach[i];
+      to[count + 4 * room] = planes.number[i];
       ++count;
     }
   }
   for (; count % 16; ++count) {
-    for (int row = 0; row < 5; ++row) to[count + row * room] = 0;
+    for (int row = 0; row < plane_rows; ++row) to[count + row * room] = 0;
     to[count + 3 * room] = 1e30f;
   }
-  return count;
+  result.count = count;
+  return result;
+}
+
+inline bool all_below(const PlaneArrays& planes, const float* plane, const Cube& cube, float slack) {
+  const float* m = cube.middle;
+  const float value = plane[0] * m[0] + plane[1] * m[1] + plane[2] * m[2] - plane[3];
+  const Floats half = all(cube.half), bound = all(value - slack);
+  for (int k = 0; k < planes.count; k += Floats::width)
+    if (bits(above(fma(half, reach(planes, k, plane), at_middle(planes, cube, k)), bound))) return false;
+  return true;
 }
 
 /// The registers that hold the nodes of one layer: rows of 8 nodes, one or two to a register.
@@ -173,7 +201,7 @@ inline void signs(const float* field, std::uint64_t* inside) {
 }
 
 inline constexpr Kernel kernel_named(const char* name) {
-  return {name, extremes, supports, distances, bounds, relevant, lower_by_planes, lower_by_capsule, signs};
+  return {name, extremes, supports, distances, narrow, all_below, lower_by_planes, lower_by_capsule, signs};
 }
 
 }  // namespace TENDRIL_LANES_NAMESPACE

@@ -131,7 +131,9 @@ TEST_CASE("the hull of a cloud: its field is never above the distance to any poi
     CHECK(highest > -0.01 - 1e-3);  // and it is tight
     // Bounds over a cube hold at points of it.
     const Cube cube{{0.3f, -0.2f, 0.12f}, 0.02f};
-    const FieldBounds bounds = hull.bounds(best_kernel(), cube);
+    std::vector<float> rows(plane_rows * 1024);
+    const FieldBounds bounds = hull.is_capsule() ? hull.capsule_bounds(cube)
+                                                 : best_kernel().narrow(hull.planes(), cube, 1e-6f, rows.data(), 1024).bounds;
     for (int i = 0; i < 50; ++i) {
       std::uniform_real_distribution<double> within(-0.02, 0.02);
       const double value = field_at(hull, Vec3(0.3 + within(random), -0.2 + within(random), 0.12 + within(random)));
