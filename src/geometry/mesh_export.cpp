@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
+#include <vector>
 
 #include "base/error.h"
 #include "base/write_file.h"
@@ -76,6 +77,73 @@ std::string obj_of(const Mesh& mesh, double unit) {
   return out;
 }
 
+namespace {
+
+/// What glTF calls (x, y, z): its y axis points up.
+void append_y_up(std::string& out, const Vec3& v) {
+  append(out, static_cast<float>(v.x()));
+  append(out, static_cast<float>(v.z()));
+  append(out, static_cast<float>(-v.y()));
+}
+
+std::vector<Vec3> smooth_normals(const Mesh& mesh) {
+  std::vector<Vec3> normals(mesh.vertices.size(), Vec3::Zero());
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const Vec3 area = (mesh.vertices[b] - mesh.vertices[a]).cross(mesh.vertices[c] - mesh.vertices[a]);
+    for (const int corner : {a, b, c}) normals[corner] += area;
+  }
+  for (Vec3& normal : normals) {
+    normal.stableNormalize();
+    if (!(std::abs(normal.squaredNorm() - 1) < 1e-6)) normal = Vec3::UnitZ();  // of no triangle with a face
+  }
+  return normals;
+}
+
+std::string glb_header(const Mesh& mesh) {
+  Eigen::AlignedBox3f box;  // of the numbers as the file holds them
+  for (const Vec3& v : mesh.vertices) box.extend(Eigen::Vector3f(Vec3(v.x(), v.z(), -v.y()).cast<float>()));
+  const auto list = [](const Eigen::Vector3f& v) {
+    std::string text = "[";
+    for (int k = 0; k < 3; ++k) text += k > 0 ? "," : "", append_text(text, v[k]);
+    return text + "]";
+  };
+  const std::string vertices = std::to_string(mesh.vertices.size()), rows = std::to_string(12 * mesh.vertices.size());
+  const std::string corners = std::to_string(3 * mesh.triangles.size()), indices = std::to_string(12 * mesh.triangles.size());
+  return R"({"asset":{"version":"2.0","generator":"tendril"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],)"
+         R"("meshes":[{"primitives":[{"attributes":{"POSITION":0,"NORMAL":1},"indices":2,"mode":4}]}],)"
+         R"("buffers":[{"byteLength":)" + std::to_string(24 * mesh.vertices.size() + 12 * mesh.triangles.size()) +
+         R"(}],"bufferViews":[{"buffer":0,"byteOffset":0,"byteLength":)" + rows + R"(,"target":34962},)" +
+         R"({"buffer":0,"byteOffset":)" + rows + R"(,"byteLength":)" + rows + R"(,"target":34962},)" +
+         R"({"buffer":0,"byteOffset":)" + std::to_string(24 * mesh.vertices.size()) + R"(,"byteLength":)" + indices +
+         R"(,"target":34963}],"accessors":[{"bufferView":0,"componentType":5126,"count":)" + vertices +
+         R"(,"type":"VEC3","min":)" + list(box.min()) + R"(,"max":)" + list(box.max()) +
+         R"(},{"bufferView":1,"componentType":5126,"count":)" + vertices +
+         R"(,"type":"VEC3"},{"bufferView":2,"componentType":5125,"count":)" + corners + R"(,"type":"SCALAR"}]})";
+}
+
+}  // namespace
+
+std::string glb_of(const Mesh& mesh) {
+  std::string json = glb_header(mesh);
+  json.resize((json.size() + 3) / 4 * 4, ' ');
+  const std::size_t data = 24 * mesh.vertices.size() + 12 * mesh.triangles.size(), size = 12 + 8 + json.size() + 8 + data;
+  if (size > 0xffffffffu)
+    throw UsageError("mesh '" + mesh.name + "': too large for a GLB file, which holds at most 4 GB; save it as .ply");
+  std::string out = "glTF";
+  out.reserve(size);
+  append(out, std::uint32_t{2});
+  append(out, static_cast<std::uint32_t>(size));
+  append(out, static_cast<std::uint32_t>(json.size()));
+  out += "JSON" + json;
+  append(out, static_cast<std::uint32_t>(data));
+  out.append("BIN\0", 4);
+  for (const Vec3& v : mesh.vertices) append_y_up(out, v);
+  for (const Vec3& normal : smooth_normals(mesh)) append_y_up(out, normal);
+  for (const auto& t : mesh.triangles)
+    for (const int corner : t) append(out, static_cast<std::uint32_t>(corner));
+  return out;
+}
+
 void save_mesh(const std::string& path, const Mesh& mesh, double unit) {
   mesh.check();
   if (!(std::isfinite(unit) && unit > 0))
@@ -85,8 +153,10 @@ void save_mesh(const std::string& path, const Mesh& mesh, double unit) {
   if (suffix == ".stl") write_file(path, stl_of(mesh, unit));
   else if (suffix == ".ply") write_file(path, ply_of(mesh, unit));
   else if (suffix == ".obj") write_file(path, obj_of(mesh, unit));
+  else if (suffix == ".glb" && unit != 1) throw UsageError("mesh '" + path + "': glTF files are in metres; leave the unit out");
+  else if (suffix == ".glb") write_file(path, glb_of(mesh));
   else throw UsageError("mesh '" + path + "': files of the suffix '" + suffix +
-                        "' are not written; what is written: .stl, .ply, .obj");
+                        "' are not written; what is written: .stl, .ply, .obj, .glb");
 }
 
 }  // namespace tendril

@@ -48,10 +48,55 @@ TEST_CASE("what is written is read back, in every format and unit", "[import]") 
     }
 }
 
+TEST_CASE("binary glTF is written with y up, normals and bounds", "[import]") {
+  const Folder folder;
+  Random random(18);
+  const Mesh mesh = welded(box_mesh({0.3, 0.4, 0.5}, 3).moved({1, 2, 3}, random.rotation()), 1e-9).mesh;
+  save_mesh(folder / "new/a.GLB", mesh);
+  const LoadedMesh loaded = load_mesh(folder / "new/a.GLB", 1);
+  CHECK(loaded.triangles_in_file == 108);
+  CHECK(loaded.mesh.vertices.size() == 56);
+  Mesh back = loaded.mesh;
+  for (Vec3& v : back.vertices) v = Vec3(v.x(), -v.z(), v.y());
+  CHECK((back.box().min() - mesh.box().min()).norm() < 1e-6);
+  CHECK((back.box().max() - mesh.box().max()).norm() < 1e-6);
+  CHECK(back.volume() == Approx(0.48));  // turned, not mirrored
+  // The layout that other readers rely on: chunks in whole words, sizes that add up.
+  const std::string bytes = glb_of(mesh);
+  const auto word = [&](std::size_t at) {
+    std::uint32_t value;
+    std::memcpy(&value, &bytes[at], 4);
+    return value;
+  };
+  CHECK(bytes.substr(0, 4) == "glTF");
+  CHECK(word(4) == 2);
+  CHECK(word(8) == bytes.size());
+  CHECK(word(12) % 4 == 0);
+  CHECK(bytes.substr(16, 4) == "JSON");
+  const std::size_t data = 20 + word(12);
+  CHECK(word(data) == 24 * 56 + 12 * 108);
+  CHECK(bytes.substr(data + 4, 4) == std::string("BIN\0", 4));
+  CHECK(data + 8 + word(data) == bytes.size());
+  for (int v = 0; v < 56; ++v) {
+    float n[3], p[3];
+    std::memcpy(p, &bytes[data + 8 + 12 * v], sizeof p);
+    std::memcpy(n, &bytes[data + 8 + 12 * (56 + v)], sizeof n);
+    CHECK(Eigen::Vector3f(n[0], n[1], n[2]).norm() == Approx(1));
+    const Vec3 out = Vec3(p[0], -p[2], p[1]) - mesh.box().center();
+    CHECK(Vec3(n[0], -n[2], n[1]).dot(out) > 0);
+  }
+  // A vertex without a triangle has a normal too.
+  Mesh loose = mesh;
+  loose.vertices.push_back({9, 9, 9});
+  CHECK(glb_of(loose).find("nan") == std::string::npos);
+  CHECK(load_mesh(folder.write("loose.glb", glb_of(loose)), 1).mesh.triangles.size() == 108);
+}
+
 TEST_CASE("files are written only when the mesh, the unit and the name make sense", "[import]") {
   const Folder folder;
   const Mesh mesh = box_mesh({1, 1, 1});
-  CHECK_THROWS_WITH(save_mesh(folder / "a.step", mesh), EndsWith("files of the suffix '.step' are not written; what is written: .stl, .ply, .obj"));
+  CHECK_THROWS_WITH(save_mesh(folder / "a.step", mesh), EndsWith("files of the suffix '.step' are not written; what is written: .stl, .ply, .obj, .glb"));
+  CHECK_THROWS_WITH(save_mesh(folder / "a.glb", mesh, 1e-3), EndsWith("glTF files are in metres; leave the unit out"));
   CHECK_THROWS_WITH(save_mesh(folder / "a.stl", mesh, 0), EndsWith("the unit must be a finite number of metres above 0"));
   CHECK_THROWS_AS(save_mesh(folder / "a.stl", Mesh{}), UsageError);
   CHECK_THROWS_WITH(load_mesh(folder / "a.stl", 1), EndsWith("a.stl': there is no such file"));
