@@ -230,7 +230,7 @@ function scene_methods:motion(options) end
 
 ---Adds something solid: a mesh file, {points =, triangles =}, or scene.box, .cylinder, .sphere, .plane.
 ---@param name string
----@param shape string|solid|{points: vec[], triangles: integer[][]}
+---@param shape string|solid|mesh|{points: vec[], triangles: integer[][]}
 ---@param options? tendril.scene.obstacle.options
 ---@return scene
 function scene_methods:obstacle(name, shape, options) end
@@ -269,6 +269,30 @@ function scene_methods:rod(name, design, options) end
 ---@param options? tendril.scene.solve.options
 ---@return equilibrium
 function scene_methods:solve(options) end
+
+---Triangles over shared vertices; it never changes
+---@class mesh
+---@field area number Of all triangles (m^2)
+---@field triangle_count integer Number of triangles
+---@field triangles ((integer)[])[] Three vertex numbers each, counted from 1; a new list each time
+---@field vertex_count integer Number of vertices
+---@field vertices (vec)[] Places; a new list each time (m)
+---@field volume number Within the mesh, when it is watertight with normals outwards (m^3)
+---@field watertight boolean Every edge has exactly two triangles
+local mesh_methods = {}
+
+---Whether a point lies inside a watertight mesh.
+---@param point vec|number[]
+---@return boolean
+function mesh_methods:contains(point) end
+
+---@class (exact) tendril.mesh.save.options
+---@field unit? "mm"|"cm"|"m"|"in" Length unit of the file; default "m". A .glb is always in m
+
+---Writes it as .stl, .ply, .obj or .glb (in which y points up: it is turned for that); a missing folder is created.
+---@param path string
+---@param options? tendril.mesh.save.options
+function mesh_methods:save(path, options) end
 
 ---A box, sphere, cylinder or half-space to place with scene:obstacle
 ---@class solid
@@ -493,7 +517,7 @@ local view_methods = {}
 ---@class (exact) tendril.view.save.options
 ---@field size? (integer)[] {width, height}; default {1600, 1200} (pixels)
 ---@field sheet? (string)[] Views in rows of two: "iso", "front", "top", "side", "card"; default iso, front, top and card
----@field fit? string|(string)[] Rod or obstacle, or a list, that fills each view; default: the rods
+---@field fit? string|(string)[] Rod, obstacle or "envelope", or a list, that fills each view; default: rods and envelope
 ---@field timeout? number Give up after this time, with the best state so far; default: never (s; > 0 and <= 1000000000)
 
 ---Draws it into a .png; a missing folder is created.
@@ -733,6 +757,15 @@ scene = {}
 ---@return scene
 function scene.new(options) end
 
+---@class (exact) tendril.scene.mesh.options
+---@field unit? "mm"|"cm"|"m"|"in" Length unit of the file or data; a file must be given one, data are in m otherwise
+
+---A mesh from a file, or from {points =, triangles =}.
+---@param source string|{points: vec[], triangles: integer[][]}
+---@param options? tendril.scene.mesh.options
+---@return mesh
+function scene.mesh(source, options) end
+
 ---@class (exact) tendril.scene.box.options
 ---@field size vec|number[] Edge lengths along its x, y, z; its middle is the pose's place (m)
 
@@ -772,6 +805,7 @@ view = {}
 ---@field [integer] scene|equilibrium The scene, its equilibrium, or both
 ---@field color? string|(number)[] What the rods' colour says: "clearance", "curvature", "tension", "twist", or {r, g, b} from 0 to 1; default: clearance when there are obstacles, else curvature
 ---@field ghost? (string)[] Obstacles to see through, the others are solid; default: all
+---@field envelope? mesh A shell around the rods to see through; with color = "clearance" its colours say how near obstacles are to it, and the rods are plain
 ---@field title? string On the card
 
 ---A picture of a scene and its equilibrium; draw it with :save(path).

@@ -1,10 +1,6 @@
 #include "binding/bind_obstacle.h"
 
-#include <cstdio>
-
-#include "base/units.h"
 #include "binding/card.h"
-#include "geometry/import_mesh.h"
 
 namespace tendril::lua {
 namespace {
@@ -36,20 +32,6 @@ std::string wrong_mesh(lua_State* L, int index) {
     if (type != LUA_TTABLE) return std::string("a table without a list '") + field + "'";
   }
   return "";
-}
-
-double metres_per(const std::string& unit) {
-  if (unit == "mm") return units::mm;
-  if (unit == "cm") return units::cm;
-  if (unit == "in") return 25.4 * units::mm;
-  return units::m;
-}
-
-std::shared_ptr<const TriangleSurface> surface_from_file(lua_State* L, const std::string& path, double unit) {
-  LoadedMesh loaded = load_mesh(path, unit, run_context(L));
-  if (loaded.status != Status::solved) throw UsageError("scene:obstacle: reading '" + path + "' was interrupted");
-  if (!loaded.warning.empty()) std::fprintf(stderr, "warning: %s\n", loaded.warning.c_str());
-  return std::make_shared<const TriangleSurface>(std::move(loaded.mesh));
 }
 
 Preference preference_of(const std::string& name) {
@@ -107,6 +89,11 @@ PlacedObstacle make_obstacle(lua_State* L, const std::string& name, const Obstac
     obstacle.body.shape = solid->solid;
     return obstacle;
   }
+  if (const MeshValue* mesh = std::get_if<MeshValue>(&source)) {
+    if (o.has("unit")) throw UsageError("scene:obstacle: 'unit' belongs to files and mesh data; a mesh is in m");
+    obstacle.body.shape = mesh->surface;
+    return obstacle;
+  }
   const double scale = metres_per(o.maybe<std::string>("unit").value_or("m"));
   if (const Mesh* data = std::get_if<Mesh>(&source)) {
     Mesh mesh = *data;
@@ -118,7 +105,7 @@ PlacedObstacle make_obstacle(lua_State* L, const std::string& name, const Obstac
   const std::string& path = std::get<std::string>(source);
   if (!o.has("unit"))
     throw UsageError("scene:obstacle: 'unit' is missing: files do not say it, and it is never guessed; give unit = \"mm\", \"cm\", \"m\" or \"in\"");
-  obstacle.body.shape = surface_from_file(L, path, scale);
+  obstacle.body.shape = surface_from_file(L, "scene:obstacle", path, scale);
   return obstacle;
 }
 

@@ -3,6 +3,7 @@
 
 #include <variant>
 
+#include "binding/bind_mesh.h"
 #include "binding/lua_class.h"
 #include "binding/scene_classes.h"
 #include "geometry/mesh.h"
@@ -16,13 +17,16 @@ struct Value<Mesh> {
   static Mesh read(lua_State* L, int index);
 };
 
-/// A file's name, a solid, or mesh data.
-using ObstacleSource = std::variant<std::string, SolidValue, Mesh>;
+/// A file's name, a solid, a mesh, or mesh data.
+using ObstacleSource = std::variant<std::string, SolidValue, MeshValue, Mesh>;
 
 Schema obstacle_options();
 
 /// Reads the file when there is one. Throws UsageError for a file that is missing, broken, or given without its unit.
 PlacedObstacle make_obstacle(lua_State* L, const std::string& name, const ObstacleSource& source, const Options& o);
+
+/// scene.mesh and the class it makes.
+void bind_mesh(lua_State* L, Module& scene);
 
 /// scene.box, scene.sphere, scene.cylinder, scene.plane.
 void add_solids(lua_State* L, Module& scene);

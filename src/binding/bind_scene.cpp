@@ -217,6 +217,7 @@ void bind_scene(lua_State* L) {
   scene.function("new", {.options = scene_options(), .does = "An empty world.",
                          .example = "local s = scene.new{gravity = {0, 0, -9.81}}\nprint(s)"},
                  [](const Options& o) { return std::make_shared<Scene>(o.maybe<Vec3>("gravity").value_or(Vec3::Zero())); });
+  bind_mesh(L, scene);
   add_solids(L, scene);
 }
 

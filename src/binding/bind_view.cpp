@@ -1,5 +1,6 @@
 // view: pictures of a scene and its equilibrium.
 #include "base/nearest_name.h"
+#include "binding/bind_mesh.h"
 #include "binding/card.h"
 #include "binding/compose_picture.h"
 #include "binding/examples.h"
@@ -44,6 +45,8 @@ Schema view_options() {
       option<Colour>("color", "", "What the rods' colour says: \"clearance\", \"curvature\", \"tension\", \"twist\", or {r, g, b} "
                                   "from 0 to 1; default: clearance when there are obstacles, else curvature"),
       option<std::vector<std::string>>("ghost", "", "Obstacles to see through, the others are solid; default: all"),
+      option<MeshValue>("envelope", "", "A shell around the rods to see through; with color = \"clearance\" its colours say how near "
+                                        "obstacles are to it, and the rods are plain"),
       option<std::string>("title", "", "On the card"),
   }
       .with_list(ShownKind::kind(), "what", "The scene, its equilibrium, or both");
@@ -54,7 +57,7 @@ Schema save_options() {
              option<std::array<int, 2>>("size", "pixels", "{width, height}; default {1600, 1200}"),
              option<std::vector<std::string>>("sheet", "", "Views in rows of two: \"iso\", \"front\", \"top\", \"side\", \"card\"; "
                                                            "default iso, front, top and card"),
-             option<OneOrMany>("fit", "", "Rod or obstacle, or a list, that fills each view; default: the rods"),
+             option<OneOrMany>("fit", "", "Rod, obstacle or \"envelope\", or a list, that fills each view; default: rods and envelope"),
          } + timeout_schema();
 }
 
@@ -97,6 +100,7 @@ View make_view(lua_State* L, const Options& o) {
   const bool obstacles = view.equilibrium ? !view.equilibrium->obstacles.empty() : !view.scene->obstacles().empty();
   view.wish.colour = obstacles ? RodColour::clearance : RodColour::curvature;
   if (o.has("color")) read_colour(o, view.wish);
+  if (const MeshValue* envelope = o.find<MeshValue>("envelope")) view.wish.envelope = envelope->surface;
   view.wish.ghost = o.maybe<std::vector<std::string>>("ghost");
   view.wish.title = o.maybe<std::string>("title").value_or("");
   compose_check(*view.scene, view.equilibrium.get(), view.wish);

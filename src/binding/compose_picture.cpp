@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/nearest_name.h"
 #include "base/units.h"
+#include "binding/compose_envelope.h"
 #include "binding/compose_tubes.h"
 
 namespace tendril {
@@ -32,6 +33,7 @@ struct Shown {
   const std::vector<PlacedObstacle>& obstacles;
   const SceneEquilibrium* equilibrium;
   Box rods;  ///< around the rods' surfaces, or around the holds of a scene that is not solved
+  Box envelope = {};
 };
 
 Box box_of_tube(const PictureTube& tube) {
@@ -136,8 +138,8 @@ PictureCard card_of(const SceneEquilibrium& eq, const std::vector<Gaps>& gaps, c
 }
 
 std::optional<PictureBox> fit_box(const Shown& shown, const Picture& picture, const std::vector<std::string>& wanted) {
-  if (wanted.empty()) return std::nullopt;
-  Box box;
+  if (wanted.empty() && shown.envelope.isEmpty()) return std::nullopt;
+  Box box = wanted.empty() ? Box(shown.rods.merged(shown.envelope)) : Box();
   for (const std::string& name : wanted) {
     std::vector<std::string> names;
     Box found;
@@ -198,14 +200,17 @@ Picture compose_picture(const Scene& scene, const SceneEquilibrium* eq, const Pi
   picture.width = wish.width;
   picture.height = wish.height;
   Shown shown{eq ? eq->obstacles : scene.obstacles(), eq, {}};
-  if (eq) picture.tubes = compose_tubes(*eq, wish);
+  const bool shell_coloured = wish.envelope && wish.colour == RodColour::clearance && !shown.obstacles.empty();
+  PictureWish rod_wish = wish;
+  if (shell_coloured) rod_wish.colour = RodColour::plain;
+  if (eq) picture.tubes = compose_tubes(*eq, rod_wish);
   for (const PictureTube& tube : picture.tubes) shown.rods.extend(box_of_tube(tube));
   if (!eq)
     for (const auto& rod : scene.rods())
       for (const Hold& hold : rod->holds()) shown.rods.extend(hold.frame.at);
   add_surfaces(shown, wish, picture);
   if (eq) {
-    add_solved(*eq, wish, picture);
+    add_solved(*eq, rod_wish, picture);
   } else {
     for (const auto& rod : scene.rods()) add_holds(rod->rod(), rod->holds(), nullptr, picture);
     picture.card.title = wish.title.empty() ? "scene" : wish.title;
@@ -213,6 +218,10 @@ Picture compose_picture(const Scene& scene, const SceneEquilibrium* eq, const Pi
                          {"rods", std::to_string(scene.rods().size()), false},
                          {"obstacles", std::to_string(scene.obstacles().size()), false},
                          {"tendril", TENDRIL_VERSION, false}};
+  }
+  if (wish.envelope) {
+    shown.envelope = wish.envelope->box();
+    add_envelope(wish.envelope, shown.obstacles, shell_coloured, picture);
   }
   picture.fit = fit_box(shown, picture, wish.fit);
   return picture;

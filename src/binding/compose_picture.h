@@ -1,6 +1,7 @@
 // From a scene and its equilibrium to a picture's plain data. Knows no Lua and draws nothing.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,7 +21,10 @@ struct PictureWish {
   std::string title;
   std::vector<std::string> views{"iso", "front", "top", "card"};
   int width = 1600, height = 1200;
-  std::vector<std::string> fit;                   ///< rods and obstacles to fill the views; default: the rods
+  std::vector<std::string> fit;                   ///< rods and obstacles to fill the views; default: rods and envelope
+  /// A transparent shell around the rods. With RodColour::clearance it is the shell that the colours speak of: how far its
+  /// vertices are from the obstacles, negative inside. The rods are plain then.
+  std::shared_ptr<const TriangleSurface> envelope;
 };
 
 /// Throws UsageError for obstacles to ghost that are not there.

@@ -96,15 +96,26 @@ PictureTube compose_tube(const SceneEquilibrium& eq, const SolvedRod& rod, const
 
 }  // namespace
 
-std::optional<double> common_clearance(const SceneEquilibrium& eq) {
-  if (eq.obstacles.empty()) return std::nullopt;
-  for (const PlacedObstacle& obstacle : eq.obstacles)
-    if (obstacle.clearance != eq.obstacles.front().clearance) return std::nullopt;
-  return eq.obstacles.front().clearance;
+std::optional<double> common_clearance(const std::vector<PlacedObstacle>& obstacles) {
+  if (obstacles.empty()) return std::nullopt;
+  for (const PlacedObstacle& obstacle : obstacles)
+    if (obstacle.clearance != obstacles.front().clearance) return std::nullopt;
+  return obstacles.front().clearance;
+}
+
+ColourScale clearance_scale(const std::vector<PlacedObstacle>& obstacles) {
+  const std::optional<double> required = common_clearance(obstacles);
+  ColourScale scale;
+  scale.meaning = ColourMeaning::clearance;
+  scale.name = required ? "clearance" : "margin to required clearance";
+  scale.unit = "mm";
+  scale.limit = required.value_or(0) / units::mm;
+  scale.broken = LimitSide::below;
+  return scale;
 }
 
 std::vector<PictureTube> compose_tubes(const SceneEquilibrium& eq, const PictureWish& wish) {
-  const std::optional<double> alike = common_clearance(eq);
+  const std::optional<double> alike = common_clearance(eq.obstacles);
   std::vector<PictureTube> tubes;
   for (const SolvedRod& rod : eq.rods) tubes.push_back(compose_tube(eq, rod, wish, alike));
   return tubes;
@@ -113,15 +124,7 @@ std::vector<PictureTube> compose_tubes(const SceneEquilibrium& eq, const Picture
 ColourScale compose_scale(const SceneEquilibrium& eq, RodColour colour) {
   ColourScale scale;
   switch (colour) {
-    case RodColour::clearance: {
-      const std::optional<double> required = common_clearance(eq);
-      scale.meaning = ColourMeaning::clearance;
-      scale.name = required ? "clearance" : "margin to required clearance";
-      scale.unit = "mm";
-      scale.limit = required.value_or(0) / units::mm;
-      scale.broken = LimitSide::below;
-      break;
-    }
+    case RodColour::clearance: return clearance_scale(eq.obstacles);
     case RodColour::curvature:
       scale.name = "curvature";
       scale.unit = "1/m";

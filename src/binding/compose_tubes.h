@@ -15,6 +15,9 @@ ColourScale compose_scale(const SceneEquilibrium& equilibrium, RodColour colour)
 
 /// The clearance that all obstacles require alike, m; nothing when they differ: then colours show the margin to what
 /// each requires.
-std::optional<double> common_clearance(const SceneEquilibrium& equilibrium);
+std::optional<double> common_clearance(const std::vector<PlacedObstacle>& obstacles);
+
+/// The meaning of clearance to such obstacles.
+ColourScale clearance_scale(const std::vector<PlacedObstacle>& obstacles);
 
 }  // namespace tendril

@@ -104,12 +104,15 @@ ColourRange settled_range(const Picture& picture) {
   const ColourScale& scale = picture.scale;
   ColourRange range{scale.meaning, INFINITY, -INFINITY, scale.limit, scale.broken};
   if (scale.meaning == ColourMeaning::clearance && scale.limit) range.broken = LimitSide::below;
-  for (const PictureTube& tube : picture.tubes)
-    for (double value : tube.values)
+  const auto include = [&](const std::vector<double>& values) {
+    for (const double value : values)
       if (std::isfinite(value)) {
         range.low = std::min(range.low, value);
         range.high = std::max(range.high, value);
       }
+  };
+  for (const PictureTube& tube : picture.tubes) include(tube.values);
+  for (const PictureSurface& surface : picture.surfaces) include(surface.values);
   if (range.low > range.high) range.low = 0, range.high = 1;
   if (scale.meaning == ColourMeaning::diverging) {
     const double span = std::max(std::abs(range.low), std::abs(range.high));

@@ -37,7 +37,7 @@ struct ColourRange {
   Rgb colour(double value) const;
 };
 
-/// The range that `picture.scale` asks for, from its tubes' values where it leaves the ends open. The limit of a
+/// The range that `picture.scale` asks for, from the values of its tubes and surfaces where it leaves the ends open. The limit of a
 /// clearance scale lies within the range. A range of no width is widened about its value.
 ColourRange settled_range(const Picture& picture);
 

@@ -45,6 +45,8 @@ void check_surface(const PictureSurface& surface) {
     refuse(who + "its pose is not a rotation");
   if (!(surface.share >= 0.05 && surface.share <= 0.6))
     refuse(who + "share " + std::to_string(surface.share) + ", expected 0.05 ... 0.6");
+  if (!surface.values.empty() && surface.values.size() != surface.vertices.size())
+    refuse(who + std::to_string(surface.values.size()) + " values for " + std::to_string(surface.vertices.size()) + " vertices");
 }
 
 void check_tube(const PictureTube& tube) {

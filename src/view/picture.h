@@ -43,6 +43,9 @@ struct PictureSurface {
   double share = 0.2;  ///< opacity where it is a veil, 0.05 ... 0.6
   Rgb colour{0.76f, 0.75f, 0.73f};
   bool edges = true;  ///< draw creases above 30 degrees and open borders
+  /// One per vertex, in ColourScale::unit, coloured by Picture::scale; NaN where unknown (drawn in `colour`). Empty: all
+  /// in `colour`.
+  std::vector<double> values;
 };
 
 /// A rod at its true radius with round ends. `values`, one per point, are coloured by Picture::scale; empty: `colour`.
@@ -55,7 +58,7 @@ struct PictureTube {
   Rgb colour{0.20f, 0.42f, 0.65f};
 };
 
-/// What the values of the tubes mean, hence their colours.
+/// What the values of tubes and surfaces mean, hence their colours.
 ///   magnitude   lightness grows from dark blue to light yellow
 ///   diverging   blue below 0, red above, pale at 0, the same span on both sides
 ///   clearance   light near the required value (`limit`), dark far from it; below it the hard break to red stripes
@@ -129,7 +132,7 @@ struct Picture {
   std::vector<PictureArrow> arrows;
   std::vector<PictureLabel> labels;
   std::vector<PicturePath> paths;
-  ColourScale scale;  ///< the bar is drawn when a tube has values
+  ColourScale scale;  ///< the bar is drawn when a tube or surface has values
   PictureCard card;
 
   /// "iso", "front", "top", "side", "card": one to six, laid out in rows of two (one alone fills the picture).

@@ -16,6 +16,7 @@ const float crease_cosine = static_cast<float>(std::cos(crease_angle));
 /// Distinct places, and the triangles in terms of them.
 struct Joined {
   std::vector<Vector3f> positions;
+  std::vector<float> values;  ///< one a position, or none
   std::vector<Triangle> triangles;
   std::size_t left_out = 0;
 };
@@ -62,6 +63,9 @@ Joined joined(const PictureSurface& surface, const Vec3& origin) {
   Joined result;
   const std::vector<std::uint32_t> place = places(points, result.positions);
   result.triangles.reserve(surface.triangles.size());
+  if (!surface.values.empty()) result.values.assign(result.positions.size(), no_value);
+  for (std::size_t i = 0; i < surface.values.size(); ++i)
+    if (place[i] != 0xffffffff && std::isfinite(surface.values[i])) result.values[place[i]] = static_cast<float>(surface.values[i]);
   for (const std::array<std::int32_t, 3>& triangle : surface.triangles) {
     Triangle t{};
     bool good = true;
@@ -127,6 +131,7 @@ void add_smooth_vertices(const Joined& mesh, const std::vector<Vector3f>& unit, 
       if (!home) {
         bundles.push_back({unit[face], Vector3f::Zero(), static_cast<std::uint32_t>(result.positions.size())});
         result.positions.push_back(mesh.positions[place]);
+        if (!mesh.values.empty()) result.values.push_back(mesh.values[place]);
         home = &bundles.back();
       }
       home->sum += home->lead.dot(unit[face]) < 0 ? Vector3f(-area[face]) : area[face];

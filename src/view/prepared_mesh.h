@@ -21,11 +21,15 @@ struct MeshPiece {
 struct PreparedMesh {
   std::vector<Eigen::Vector3f> positions;            ///< m, relative to the origin
   std::vector<std::array<std::int16_t, 2>> normals;  ///< octahedral; the sign is free (surfaces have no outside)
+  std::vector<float> values;                         ///< one a position, `no_value` where unknown; empty: none
   std::vector<std::uint32_t> triangles;              ///< 3 a triangle, sorted into pieces
   std::vector<std::uint32_t> edges;                  ///< 2 an edge, sorted into pieces
   std::vector<MeshPiece> triangle_pieces, edge_pieces;
   std::size_t left_out = 0;  ///< triangles with missing or non-finite vertices
 };
+
+/// Stands for a value that is not known: everything above 1e30 does.
+inline constexpr float no_value = 1e32f;
 
 /// Creases sharper than this (rad) are edges, and normals do not run smoothly across them.
 inline constexpr double crease_angle = 0.5235987755982988;

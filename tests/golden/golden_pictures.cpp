@@ -27,6 +27,7 @@ const Golden table[] = {
     {"solid_front", scenes::hose_behind_solid, {"front"}},
     {"solid_iso", scenes::hose_behind_solid, {"iso"}},
     {"envelope", scenes::envelope_of_hose, {"iso", "top"}, 640, 240},
+    {"envelope_clearance", scenes::envelope_by_clearance, {"iso", "front"}, 640, 240},
     {"straight_sheet", scenes::straight_hose, {"iso", "front", "side", "card"}},
 };
 

@@ -266,6 +266,46 @@ Picture envelope_of_hose() {
   return picture;
 }
 
+Picture envelope_by_clearance() {
+  Picture picture;
+  PictureTube hose;
+  hose.name = "hose";
+  hose.radius = 0.012;
+  for (int i = 0; i <= 100; ++i) {
+    const double t = i / 100.0;
+    hose.points.push_back({0.6 * t, 0.05 * std::sin(5 * t), 0.16 - 0.32 * t * (1 - t)});
+  }
+  // Rings about the hose, wider in the middle.
+  constexpr int sides = 48;
+  Mesh shell;
+  for (std::size_t i = 0; i < hose.points.size(); ++i) {
+    const double t = static_cast<double>(i) / 100, radius = 0.016 + 0.05 * std::sin(pi * t);
+    for (int k = 0; k < sides; ++k)
+      shell.vertices.push_back(hose.points[i] + radius * Vec3(0, std::cos(2 * pi * k / sides), std::sin(2 * pi * k / sides)));
+  }
+  for (std::int32_t i = 0; i + 1 < static_cast<std::int32_t>(hose.points.size()); ++i)
+    for (std::int32_t k = 0; k < sides; ++k) {
+      const std::int32_t a = sides * i + k, b = sides * i + (k + 1) % sides;
+      shell.triangles.push_back({a, b, a + sides});
+      shell.triangles.push_back({b, b + sides, a + sides});
+    }
+  Mesh step;
+  step.box({0.0, -0.15, -0.04}, {0.35, 0.15, 0.0});
+  step.box({0.35, -0.15, -0.04}, {0.6, 0.15, 0.03});
+  PictureSurface envelope = surface("envelope", shell, SurfaceStyle::veil);
+  for (const Vec3& v : shell.vertices)
+    envelope.values.push_back(v.x() > 0.5 ? NAN : 1e3 * (v.z() - (v.x() > 0.35 ? 0.03 : 0.0)));
+  envelope.share = 0.55;
+  envelope.edges = false;
+  envelope.colour = {0.35f, 0.55f, 0.80f};
+  picture.surfaces.push_back(surface("step", std::move(step)));
+  picture.surfaces.push_back(std::move(envelope));
+  picture.holds.push_back({end_frame(hose.points, true), hose.radius, PictureHold::Kind::clamp, ""});
+  picture.tubes.push_back(std::move(hose));
+  picture.scale = {ColourMeaning::clearance, "envelope: clearance", "mm", std::nullopt, std::nullopt, 10.0, LimitSide::below};
+  return picture;
+}
+
 Picture straight_hose() {
   Picture picture;
   PictureTube hose;

@@ -36,6 +36,9 @@ Picture hose_behind_solid();
 /// An envelope as a veil about a hose whose section varies, curvature with a limit above, a pin and a guide.
 Picture envelope_of_hose();
 
+/// A shell around a hose over a step, coloured by its distance from the step: near it too small, above a cut-out unknown.
+Picture envelope_by_clearance();
+
 /// Clearance far above the limit, one label, tube along the line of sight of a view: what a fit must survive.
 Picture straight_hose();
 

@@ -126,6 +126,16 @@ SceneGeometry::SceneGeometry(PreparedScene&& scene)
   glVertexAttribPointer(1, 2, GL_SHORT, GL_TRUE, 0, nullptr);
   offset = 0;
   for (const PreparedMesh& mesh : meshes) offset = fill(GL_ARRAY_BUFFER, offset, mesh.normals);
+  if (total(meshes, &PreparedMesh::values) > 0) {
+    // Attributes are counted by vertex over all meshes: those without values hold places, too.
+    values_ = new_buffer(GL_ARRAY_BUFFER, total(meshes, &PreparedMesh::positions) * sizeof(float));
+    glVertexAttribPointer(3, 1, GL_FLOAT, GL_FALSE, 0, nullptr);
+    offset = 0;
+    for (const PreparedMesh& mesh : meshes) {
+      fill(GL_ARRAY_BUFFER, offset, mesh.values);
+      offset += mesh.positions.size() * sizeof(float);
+    }
+  }
   indices_ = new_buffer(
       GL_ELEMENT_ARRAY_BUFFER,
       (total(meshes, &PreparedMesh::triangles) + total(meshes, &PreparedMesh::edges)) * sizeof(std::uint32_t));
@@ -136,7 +146,7 @@ SceneGeometry::SceneGeometry(PreparedScene&& scene)
       const std::uint32_t first = static_cast<std::uint32_t>(offset / sizeof(std::uint32_t));
       for (MeshPiece piece : kind == 0 ? meshes[i].triangle_pieces : meshes[i].edge_pieces) {
         piece.first += first;
-        (kind == 0 ? pieces_ : edge_pieces_).push_back({piece, first_vertex, scene.styles[i], scene.paints[i]});
+        (kind == 0 ? pieces_ : edge_pieces_).push_back({piece, first_vertex, scene.styles[i], scene.paints[i], !meshes[i].values.empty()});
       }
       offset = fill(GL_ELEMENT_ARRAY_BUFFER, offset, kind == 0 ? meshes[i].triangles : meshes[i].edges);
     }
@@ -145,7 +155,7 @@ SceneGeometry::SceneGeometry(PreparedScene&& scene)
 }
 
 SceneGeometry::~SceneGeometry() {
-  for (GLuint buffer : {positions_, normals_, indices_}) glDeleteBuffers(1, &buffer);
+  for (GLuint buffer : {positions_, normals_, values_, indices_}) glDeleteBuffers(1, &buffer);
   glDeleteVertexArrays(1, &array_);
 }
 
@@ -162,6 +172,8 @@ void SceneGeometry::draw(const std::vector<Piece>& pieces, const Page& page, Lay
   glBindVertexArray(array_);
   for (const auto& [depth, piece] : shown) {
     glVertexAttrib1f(2, piece->paint);
+    if (piece->valued) glEnableVertexAttribArray(3);
+    else glDisableVertexAttribArray(3), glVertexAttrib1f(3, no_value);
     glDrawElementsBaseVertex(mode, static_cast<GLsizei>(piece->run.count), GL_UNSIGNED_INT,
                              reinterpret_cast<const void*>(piece->run.first * sizeof(std::uint32_t)),
                              static_cast<GLint>(piece->first_vertex));

@@ -59,13 +59,14 @@ class SceneGeometry {
     std::uint32_t first_vertex;
     SurfaceStyle style;
     float paint;
+    bool valued;
   };
   void draw(const std::vector<Piece>& pieces, const Page& page, Layer layer, bool tested, GLenum mode) const;
 
   std::vector<Piece> pieces_, edge_pieces_;
   std::vector<Paint> palette_;
   Eigen::Vector3f low_, high_;
-  GLuint array_ = 0, positions_ = 0, normals_ = 0, indices_ = 0;
+  GLuint array_ = 0, positions_ = 0, normals_ = 0, values_ = 0, indices_ = 0;
 };
 
 }  // namespace tendril::render

@@ -6,28 +6,40 @@ const std::string_view surface_vertex = R"(
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec2 folded;
 layout(location = 2) in float paint;
+layout(location = 3) in float value;
 uniform mat4 page;
 uniform mat3 turn;
 uniform float nearer;
 out vec3 normal;
 flat out float shade;
+out float reading;
 void main() {
   vec3 n = vec3(folded, 1.0 - abs(folded.x) - abs(folded.y));
   if (n.z < 0.0) n.xy = (1.0 - abs(n.yx)) * vec2(n.x < 0.0 ? -1.0 : 1.0, n.y < 0.0 ? -1.0 : 1.0);
   normal = turn * n;
   shade = paint;
+  reading = value;
   gl_Position = page * vec4(position, 1.0);
   gl_Position.z -= nearer;
 }
 )";
 
-// A normal is kept as its x and y: the sign that faces the eye is the right one on a surface without an outside.
+// A normal is kept as its x and y: the sign that faces the eye is the right one on a surface without an outside. What is
+// kept last tells of the value: up to 0.9 its share of the range, 0.95 that it breaks the limit, 1 that there is none.
 const std::string_view surface_fragment = R"(
 in vec3 normal;
 flat in float shade;
+in float reading;
 uniform sampler2D cut;
 uniform vec2 per_pixel;
+uniform vec2 range;
+uniform vec2 limit;
 layout(location = 0) out vec4 kept;
+float told() {
+  if (reading > 1e30) return 1.0;
+  if ((limit.y < 0.0 && reading < limit.x) || (limit.y > 0.0 && reading > limit.x)) return 0.95;
+  return 0.9 * clamp((reading - range.x) / (range.y - range.x), 0.0, 1.0);
+}
 void main() {
 #ifdef KEEP_BEHIND
   if (gl_FragCoord.z < texture(cut, gl_FragCoord.xy * per_pixel).r) discard;
@@ -37,7 +49,7 @@ void main() {
 #endif
   vec3 n = normalize(normal);
   if (n.z < 0.0) n = -n;
-  kept = vec4(0.5 * n.xy + 0.5, shade, 1.0);
+  kept = vec4(0.5 * n.xy + 0.5, shade, told());
 }
 )";
 
@@ -188,7 +200,9 @@ void main() {
 )";
 
 const std::string_view compose_fragment = R"(
-uniform sampler2D base, base_depth, base_edges, veil, veil_depth, veil_edges, tube, tube_colour, tube_depth, light, palette, cut;
+uniform sampler2D base, base_depth, base_edges, veil, veil_depth, veil_edges, tube, tube_colour, tube_depth, light, palette, cut, colours;
+uniform vec3 broken;
+uniform vec3 broken_stripe;
 uniform float depth_pixels;
 uniform float fade;
 uniform vec3 paper;
@@ -230,6 +244,12 @@ vec3 surroundings(vec4 kept, float open, float edge, out float share) {
   vec4 own = texelFetch(palette, ivec2(paint, 0), 0);
   float strength = texelFetch(palette, ivec2(paint, 1), 0).r;
   share = own.a;
+  if (kept.a < 0.975) strength = max(strength, 0.9);  // colours that speak are not to fade into the paper
+  if (kept.a < 0.925) {
+    own.rgb = texture(colours, vec2(kept.a / 0.9, 0.5)).rgb;
+  } else if (kept.a < 0.975) {
+    own.rgb = fract((gl_FragCoord.x + gl_FragCoord.y) / 22.0) < 0.36 ? broken_stripe : broken;
+  }
   vec3 lit = own.rgb * clay(unfold(kept.rg));
   vec3 colour = mix(paper, lit, strength) * mix(vec3(1.0), vec3(0.45, 0.46, 0.50), 1.0 - open);
   return mix(colour, ink, 0.55 * edge);

@@ -41,8 +41,9 @@ std::vector<Rect> cells_of(int count, int width, int height) {
 }
 
 bool has_values(const Picture& picture) {
-  return std::any_of(picture.tubes.begin(), picture.tubes.end(),
-                     [](const PictureTube& tube) { return !tube.values.empty(); });
+  const auto valued = [](const auto& part) { return !part.values.empty(); };
+  return std::any_of(picture.tubes.begin(), picture.tubes.end(), valued) ||
+         std::any_of(picture.surfaces.begin(), picture.surfaces.end(), valued);
 }
 
 Vec3 middle_of(const std::vector<FitBall>& balls) {

@@ -186,6 +186,14 @@ ViewPainter::Span ViewPainter::depth_span(const ViewCamera& camera, const std::v
   return {high + spare, high - low + 2 * spare};
 }
 
+void ViewPainter::set_range(const Program& program) const {
+  program.set("range", static_cast<float>(range_.low), static_cast<float>(range_.high));
+  const float side = !range_.limit || range_.broken == LimitSide::none ? 0.0f
+                     : range_.broken == LimitSide::below               ? -1.0f
+                                                                       : 1.0f;
+  program.set("limit", static_cast<float>(range_.limit.value_or(0)), side);
+}
+
 void ViewPainter::draw_surroundings(const SceneGeometry::Page& page, GLuint cut, const Buffers& buffers) const {
   const auto begin = [&](const Program& program, double nearer) {
     set_page(program, page);
@@ -193,6 +201,7 @@ void ViewPainter::draw_surroundings(const SceneGeometry::Page& page, GLuint cut,
     program.set("per_pixel", 1.0f / static_cast<float>(buffers.samples_x),
                 1.0f / static_cast<float>(buffers.samples_y));
     program.set("nearer", static_cast<float>(nearer));
+    set_range(program);
   };
   glEnable(GL_DEPTH_TEST);
   glDisable(GL_CULL_FACE);
@@ -232,11 +241,7 @@ void ViewPainter::draw_tubes(const SceneGeometry::Page& page, const Marks& marks
   const Program& program = programs_->tube;
   set_page(program, page);
   program.texture("colours", 0, colours_->name);
-  program.set("range", static_cast<float>(range_.low), static_cast<float>(range_.high));
-  const float side = !range_.limit || range_.broken == LimitSide::none ? 0.0f
-                     : range_.broken == LimitSide::below               ? -1.0f
-                                                                       : 1.0f;
-  program.set("limit", static_cast<float>(range_.limit.value_or(0)), side);
+  set_range(program);
   program.set("stripe", static_cast<float>(std::max(stripe_, 12 * pixel)));
   program.set("broken", broken_colour.r, broken_colour.g, broken_colour.b);
   program.set("broken_stripe", broken_stripe.r, broken_stripe.g, broken_stripe.b);
@@ -295,9 +300,12 @@ void ViewPainter::compose(const SceneGeometry::Page& page, const Look& look, GLu
       {"base", b.base.name},   {"base_depth", b.base_depth.name},   {"base_edges", b.base_edges.name},
       {"veil", b.veil.name},   {"veil_depth", b.veil_depth.name},   {"veil_edges", b.veil_edges.name},
       {"tube", b.tube.name},   {"tube_colour", b.tube_colour.name}, {"tube_depth", b.tube_depth.name},
-      {"light", b.light.name}, {"palette", palette_->name},         {"cut", cut}};
+      {"light", b.light.name}, {"palette", palette_->name},         {"cut", cut},
+      {"colours", colours_->name}};
   int unit = 0;
   for (const auto& [name, texture] : inputs) all.texture(name, unit++, texture);
+  all.set("broken", broken_colour.r, broken_colour.g, broken_colour.b);
+  all.set("broken_stripe", broken_stripe.r, broken_stripe.g, broken_stripe.b);
   all.set("depth_pixels", pixels * fine);
   all.set("fade", static_cast<float>(look.fade));
   all.set("paper", paper.r, paper.g, paper.b);

@@ -44,6 +44,7 @@ class ViewPainter {
                   const Buffers& buffers) const;
   void draw_surroundings(const SceneGeometry::Page& page, GLuint cut, const Buffers& buffers) const;
   void draw_tubes(const SceneGeometry::Page& page, const Marks& marks, const Buffers& buffers) const;
+  void set_range(const Program& program) const;
   void compose(const SceneGeometry::Page& page, const Look& look, GLuint cut, const Buffers& buffers) const;
 
   const Picture& picture_;
