@@ -198,6 +198,7 @@ function scene_methods:branch(name, places, options) end
 ---@field element? "se3"|"staggered" Rod element: fourth order, or the second-order reference element (default "se3")
 ---@field clamp? "half_cell"|"thesis" How the staggered element clamps an end: second order, or the thesis's first order (default "half_cell")
 ---@field tolerance? number Largest last step: rotations in rad, positions over the length (1e-14 ... 0.01; default 1e-09)
+---@field clearance? "judge"|"push" What obstacles' required clearances do: judged after the solve, or kept: contact then acts that far off, growing from nothing at holds (default "judge")
 ---@field error? boolean Also estimate the discretisation error (default false)
 
 ---Which terms, contacts and solvers this scene uses, and what was left out.
@@ -213,6 +214,7 @@ function scene_methods:explain(options) end
 ---@field element? "se3"|"staggered" Rod element: fourth order, or the second-order reference element (default "se3")
 ---@field clamp? "half_cell"|"thesis" How the staggered element clamps an end: second order, or the thesis's first order (default "half_cell")
 ---@field tolerance? number Largest last step: rotations in rad, positions over the length (1e-14 ... 0.01; default 1e-09)
+---@field clearance? "judge"|"push" What obstacles' required clearances do: judged after the solve, or kept: contact then acts that far off, growing from nothing at holds (default "judge")
 ---@field error? boolean Also estimate the discretisation error (default false)
 ---@field timeout? number Give up after this time, with the best state so far; default: never (s; > 0 and <= 1000000000)
 
@@ -224,7 +226,7 @@ function scene_methods:motion(options) end
 ---@class (exact) tendril.scene.obstacle.options
 ---@field unit? "mm"|"cm"|"m"|"in" Length unit of the file or data; a file must be given one
 ---@field pose? frame Where its own axes lie: d1, d2, d3 are its x, y, z; default: the world's
----@field clearance? number Required gap to rods: judged in reports and pictures, no force comes from it (m; >= 0; default 0)
+---@field clearance? number Required gap to rods: judged in reports and pictures; kept with s:solve{clearance = "push"} (m; >= 0; default 0)
 ---@field prefer? "neutral"|"near"|"avoid" Whether routes should keep near it or away (default "neutral")
 ---@field clip? boolean Rods may be fastened to it (default true)
 
@@ -260,6 +262,7 @@ function scene_methods:rod(name, design, options) end
 ---@field element? "se3"|"staggered" Rod element: fourth order, or the second-order reference element (default "se3")
 ---@field clamp? "half_cell"|"thesis" How the staggered element clamps an end: second order, or the thesis's first order (default "half_cell")
 ---@field tolerance? number Largest last step: rotations in rad, positions over the length (1e-14 ... 0.01; default 1e-09)
+---@field clearance? "judge"|"push" What obstacles' required clearances do: judged after the solve, or kept: contact then acts that far off, growing from nothing at holds (default "judge")
 ---@field error? boolean Also estimate the discretisation error (default false)
 ---@field from? equilibrium Start from this equilibrium of a similar scene
 ---@field modes? boolean Also the softest eigenmodes, and other stable equilibria for the same holds (default false)
@@ -855,6 +858,7 @@ function study.sheet(options) end
 ---@field element? "se3"|"staggered" Rod element: fourth order, or the second-order reference element (default "se3")
 ---@field clamp? "half_cell"|"thesis" How the staggered element clamps an end: second order, or the thesis's first order (default "half_cell")
 ---@field tolerance? number Largest last step: rotations in rad, positions over the length (1e-14 ... 0.01; default 1e-09)
+---@field clearance? "judge"|"push" What obstacles' required clearances do: judged after the solve, or kept: contact then acts that far off, growing from nothing at holds (default "judge")
 ---@field error? boolean Also estimate the discretisation error (default false)
 ---@field timeout? number Give up after this time, with the best state so far; default: never (s; > 0 and <= 1000000000)
 

@@ -70,7 +70,7 @@ Schema obstacle_options() {
   return {
       option<std::string>("unit", "", "Length unit of the file or data; a file must be given one").one_of({"mm", "cm", "m", "in"}),
       option<Frame>("pose", "", "Where its own axes lie: d1, d2, d3 are its x, y, z; default: the world's"),
-      option<double>("clearance", "m", "Required gap to rods: judged in reports and pictures, no force comes from it")
+      option<double>("clearance", "m", "Required gap to rods: judged in reports and pictures; kept with s:solve{clearance = \"push\"}")
           .at_least(0).preset(0),
       option<std::string>("prefer", "", "Whether routes should keep near it or away").one_of({"neutral", "near", "avoid"}).preset("neutral"),
       option<bool>("clip", "", "Rods may be fastened to it").preset(true),

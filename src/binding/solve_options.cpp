@@ -12,6 +12,9 @@ Schema solve_schema() {
           .one_of({"half_cell", "thesis"}).preset("half_cell"),
       option<double>("tolerance", "", "Largest last step: rotations in rad, positions over the length")
           .at_least(1e-14).at_most(1e-2).preset(1e-9),
+      option<std::string>("clearance", "", "What obstacles' required clearances do: judged after the solve, or kept: contact "
+                                           "then acts that far off, growing from nothing at holds")
+          .one_of({"judge", "push"}).preset("judge"),
       option<bool>("error", "", "Also estimate the discretisation error").preset(false),
   };
 }
@@ -24,6 +27,7 @@ SolveOptions solve_options(const Options& o) {
     throw UsageError(o.who() + ": clamp = 'thesis' belongs to element = 'staggered', got 'se3'");
   options.tolerance = o.get<double>("tolerance");
   options.error = o.get<bool>("error");
+  if (o.get<std::string>("clearance") == "push") options.clearance = ClearanceRule::push;
   return options;
 }
 

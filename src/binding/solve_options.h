@@ -6,7 +6,7 @@
 
 namespace tendril::lua {
 
-/// element, clamp, tolerance, error.
+/// element, clamp, tolerance, clearance, error.
 Schema solve_schema();
 
 /// Reads what solve_schema() describes.

@@ -19,15 +19,15 @@ constexpr double same_place = 1e-14;
 // Collects the terms of one mesh at one point, measured in the mesh's axes and told in world axes.
 struct MeshTerms {
   const Vec3& p;  ///< in the mesh's axes
-  double reach;   ///< m, offset included
-  double offset;
+  double reach;   ///< m, thickness included
+  double thickness;
   const Mat3& axes;
   int obstacle;
   std::vector<DistanceTerm>& out;
 
   // `normal` is in world axes here, and so are the directions that Hessians are made of: cheaper than turning a matrix.
   void add(double weight, double distance, const Vec3& normal, const Mat3& hessian) const {
-    out.push_back({weight, distance - offset, normal, hessian, obstacle});
+    out.push_back({weight, distance - thickness, normal, hessian, obstacle});
   }
 
   // `across`: the unit normal of the triangle's plane, which also stands for the direction away from an edge or a
@@ -129,22 +129,24 @@ struct MeshTerms {
 
 }  // namespace
 
-void Surroundings::add_solid_term(int index, const Vec3& p, double range, std::vector<DistanceTerm>& out) const {
+void Surroundings::add_solid_term(int index, const Vec3& p, double range, double thickness,
+                                   std::vector<DistanceTerm>& out) const {
   const Entry& entry = entries_[index];
   const SolidDistance found = distance_to(std::get<Solid>(entry.obstacle.shape), entry.to_local(p));
-  const double distance = found.distance - entry.obstacle.offset;
+  const double distance = found.distance - thickness;
   if (!(distance < range)) return;
   out.push_back({1, distance, entry.axes * found.normal, entry.axes * found.hessian * entry.axes.transpose(), index});
 }
 
-void Surroundings::add_mesh_terms(int index, const Vec3& p, double range, std::vector<DistanceTerm>& out) const {
+void Surroundings::add_mesh_terms(int index, const Vec3& p, double range, double thickness,
+                                   std::vector<DistanceTerm>& out) const {
   const Entry& entry = entries_[index];
   const DistanceTree& tree = entry.surface->tree();
   const Mesh& mesh = entry.surface->mesh();
   const std::vector<FeatureWeights>& weights = entry.surface->topology().weights;
   const Vec3 local = entry.to_local(p);
-  const double reach = range + entry.obstacle.offset;
-  const MeshTerms terms{local, reach, entry.obstacle.offset, entry.axes, index, out};
+  const double reach = range + thickness;
+  const MeshTerms terms{local, reach, thickness, entry.axes, index, out};
   tree.visit_near(local, reach, [&](int triangle) {
     if (weights[triangle].face == 0) return;
     const auto& t = mesh.triangles[triangle];

@@ -21,7 +21,8 @@ int Surroundings::add(Obstacle obstacle) {
   const auto* mesh = std::get_if<std::shared_ptr<const TriangleSurface>>(&obstacle.shape);
   if (mesh && !*mesh) throw UsageError("obstacle: no mesh was given");
   if (!mesh) check(std::get<Solid>(obstacle.shape), "obstacle");
-  if (!std::isfinite(obstacle.offset)) throw UsageError("obstacle: the offset is not finite; a length in m expected");
+  if (!std::isfinite(obstacle.clearance) || obstacle.clearance < 0)
+    throw UsageError("obstacle: the clearance is " + std::to_string(obstacle.clearance) + " m; at least 0 expected");
   const Quat& turn = obstacle.pose.rotation;
   if (!all_finite(obstacle.pose.at) || !(std::abs(turn.norm() - 1) < 1e-6))
     throw UsageError("obstacle: the pose is not a frame; a finite place and a unit rotation expected");
@@ -30,46 +31,51 @@ int Surroundings::add(Obstacle obstacle) {
   const Eigen::AlignedBox3d box = surface ? surface->box() : box_of(std::get<Solid>(obstacle.shape));
   const Eigen::AlignedBox3d in_world = placed(box, obstacle.pose);
   const Mat3 axes = obstacle.pose.rotation.toRotationMatrix();
+  largest_clearance_ = std::max(largest_clearance_, obstacle.clearance);
   entries_.push_back({std::move(obstacle), in_world, axes, surface});
   return size() - 1;
 }
 
-ClosestPoint Surroundings::closest_on(int index, const Vec3& p, double limit) const {
+ClosestPoint Surroundings::closest_on(int index, const Vec3& p, double limit, double most) const {
   const Entry& entry = entries_[index];
-  const double offset = entry.obstacle.offset;
+  const double thickness = entry.thickness(most);
   const ClosestPoint nothing{limit, p, -1};
   // Inside its box a solid may be nearer than any limit; a mesh is not nearer than its box.
-  const double reach = limit + offset;
+  const double reach = limit + thickness;
   if (!all_finite(p)) return nothing;
   const double to_box = entry.box.squaredExteriorDistance(p);
   if (to_box > 0 && !(reach > 0 && to_box < reach * reach)) return nothing;
   if (!entry.surface) {
     const SolidDistance found = distance_to(std::get<Solid>(entry.obstacle.shape), entry.to_local(p));
     if (!(found.distance < reach)) return nothing;
-    return {found.distance - offset, entry.to_world(found.point), index};
+    return {found.distance - thickness, entry.to_world(found.point), index};
   }
   const DistanceTree::Nearest found = entry.surface->tree().closest(entry.to_local(p), reach);
   if (found.triangle < 0) return nothing;
-  return {found.distance - offset, entry.to_world(found.point), index};
+  return {found.distance - thickness, entry.to_world(found.point), index};
 }
 
-ClosestPoint Surroundings::closest(const Vec3& p, double limit) const {
+ClosestPoint Surroundings::closest(const Vec3& p, double limit) const { return closest_kept(p, limit, 0); }
+
+ClosestPoint Surroundings::closest_kept(const Vec3& p, double limit, double most) const {
   ClosestPoint best{limit, p, -1};
   for (int i = 0; i < size(); ++i) {
-    const ClosestPoint found = closest_on(i, p, best.distance);
+    const ClosestPoint found = closest_on(i, p, best.distance, most);
     if (found.obstacle >= 0) best = found;
   }
   return best;
 }
 
-void Surroundings::terms(const Vec3& p, double range, std::vector<DistanceTerm>& out) const {
+void Surroundings::terms(const Vec3& p, double range, std::vector<DistanceTerm>& out) const { terms_kept(p, range, 0, out); }
+
+void Surroundings::terms_kept(const Vec3& p, double range, double most, std::vector<DistanceTerm>& out) const {
   if (!all_finite(p)) return;
   for (int i = 0; i < size(); ++i) {
-    const double reach = range + entries_[i].obstacle.offset;
+    const double thickness = entries_[i].thickness(most), reach = range + thickness;
     const double to_box = entries_[i].box.squaredExteriorDistance(p);
     if (to_box > 0 && !(reach > 0 && to_box < reach * reach)) continue;
-    if (entries_[i].surface) add_mesh_terms(i, p, range, out);
-    else add_solid_term(i, p, range, out);
+    if (entries_[i].surface) add_mesh_terms(i, p, range, thickness, out);
+    else add_solid_term(i, p, range, thickness, out);
   }
 }
 
@@ -93,6 +99,11 @@ std::optional<RayHit> Surroundings::ray(const Vec3& a, const Vec3& b) const {
     }
   }
   return first;
+}
+
+std::string Surroundings::name(int obstacle) const {
+  const std::string& own = entries_[obstacle].obstacle.name;
+  return own.empty() ? ContactField::name(obstacle) : "obstacle '" + own + "'";
 }
 
 Eigen::AlignedBox3d Surroundings::box() const {

@@ -1,7 +1,9 @@
 // The obstacles around a rod: meshes and solids, each placed, with the distances, contact terms and rays of statics.
 #pragma once
 
+#include <algorithm>
 #include <memory>
+#include <string>
 #include <variant>
 #include <vector>
 
@@ -12,26 +14,24 @@
 
 namespace tendril {
 
-/// One obstacle. `offset` (m) thickens it: it is subtracted from every distance; 0 leaves the surface where it is.
-/// A frame's d1, d2, d3 are the x, y, z axes of the mesh or solid.
+/// One obstacle. A frame's d1, d2, d3 are the x, y, z axes of the mesh or solid.
 struct Obstacle {
   std::variant<std::shared_ptr<const TriangleSurface>, Solid> shape;
   Frame pose;
-  double offset = 0;
+  double clearance = 0;  ///< m, required: see ContactField
+  std::string name;      ///< for messages; may be empty
 };
 
 /// Obstacles as statics sees them. Distances to meshes are unsigned (open and thin sheets are walls from both sides), to
 /// solids signed. Every query is const, safe from several threads and allocates nothing of its own. A mesh's tree is
 /// built by the first query that comes near it, its topology by the first call of terms() that does.
 ///
-/// closest(): `distance` is less the offset, `point` lies on the obstacle's own surface. terms(): for a mesh the
-/// inclusion-exclusion sum of mesh_topology.h with the terms that cancel within one triangle left out. ray(): crosses
-/// the obstacle's own surface, whatever the offset; a path out of a solid does not count, so that a rod that starts
-/// inside can leave.
+/// terms(): for a mesh the inclusion-exclusion sum of mesh_topology.h with the terms that cancel within one triangle left
+/// out. ray(): a path out of a solid does not count, so that a rod that starts inside can leave.
 class Surroundings final : public ContactField {
  public:
-  /// Returns the obstacle's number, counted from 0. Throws UsageError for an offset or a pose that is not finite, a
-  /// solid without positive size, and a missing mesh.
+  /// Returns the obstacle's number, counted from 0. Throws UsageError for a clearance that is negative or not
+  /// finite, a pose that is not finite, a solid without positive size, and a missing mesh.
   int add(Obstacle obstacle);
 
   int size() const { return static_cast<int>(entries_.size()); }
@@ -40,11 +40,16 @@ class Surroundings final : public ContactField {
   ClosestPoint closest(const Vec3& p, double limit) const override;
   void terms(const Vec3& p, double range, std::vector<DistanceTerm>& out) const override;
   std::optional<RayHit> ray(const Vec3& a, const Vec3& b) const override;
+  double clearance(int obstacle) const override { return entries_[obstacle].obstacle.clearance; }
+  double largest_clearance() const override { return largest_clearance_; }
+  ClosestPoint closest_kept(const Vec3& p, double limit, double most) const override;
+  void terms_kept(const Vec3& p, double range, double most, std::vector<DistanceTerm>& out) const override;
+  std::string name(int obstacle) const override;
 
-  /// The closest point of one obstacle, beside `distance` and `point` as closest() gives them.
-  ClosestPoint closest_on(int obstacle, const Vec3& p, double limit) const;
+  /// The closest point of one obstacle.
+  ClosestPoint closest_on(int obstacle, const Vec3& p, double limit) const { return closest_on(obstacle, p, limit, 0); }
 
-  Eigen::AlignedBox3d box() const;  ///< of all obstacles but half-spaces, without offsets, m
+  Eigen::AlignedBox3d box() const;  ///< of all obstacles but half-spaces, m
 
  private:
   struct Entry {
@@ -54,11 +59,14 @@ class Surroundings final : public ContactField {
     const TriangleSurface* surface;  ///< null for a solid
     Vec3 to_local(const Vec3& p) const { return axes.transpose() * (p - obstacle.pose.at); }
     Vec3 to_world(const Vec3& p) const { return axes * p + obstacle.pose.at; }
+    double thickness(double most) const { return std::min(obstacle.clearance, most); }
   };
-  void add_solid_term(int index, const Vec3& p, double range, std::vector<DistanceTerm>& out) const;
-  void add_mesh_terms(int index, const Vec3& p, double range, std::vector<DistanceTerm>& out) const;
+  ClosestPoint closest_on(int index, const Vec3& p, double limit, double most) const;
+  void add_solid_term(int index, const Vec3& p, double range, double thickness, std::vector<DistanceTerm>& out) const;
+  void add_mesh_terms(int index, const Vec3& p, double range, double thickness, std::vector<DistanceTerm>& out) const;
 
   std::vector<Entry> entries_;
+  double largest_clearance_ = 0;
 };
 
 /// Where a polyline first passes through a surface: after `segment` whole segments, at `hit`.

@@ -50,6 +50,16 @@ void explain_design(const Rod& rod, const std::string& name, std::vector<Explain
                  isotropic ? "the same about d1 and d2" : "bending or shear differ between d1 and d2"});
 }
 
+void explain_clearance(const Scene& scene, const PlacedRod& rod, const SolveOptions& options, std::vector<ExplainedItem>& out) {
+  double largest = 0;
+  for (const PlacedObstacle& obstacle : scene.obstacles()) largest = std::max(largest, obstacle.clearance);
+  const bool push = options.clearance == ClearanceRule::push;
+  out.push_back({rod.name(), "kept clearance", push && largest > 0,
+                 largest == 0 ? "no obstacle requires any"
+                 : push       ? "contact acts up to " + number_text(1e3 * largest) + " mm off the obstacles, less near holds"
+                              : "required clearances are judged, not kept (clearance = \"push\")"});
+}
+
 void explain_terms(const Scene& scene, const PlacedRod& rod, std::vector<ExplainedItem>& out) {
   const Vec3& g = scene.gravity();
   const double mass = rod.rod().mass();
@@ -140,6 +150,7 @@ Explanation explain(const Scene& scene, const SolveOptions& options) {
     explain_holds(*rod, out);
     explain_design(rod->rod(), rod->name(), out);
     explain_terms(scene, *rod, out);
+    explain_clearance(scene, *rod, options, out);
     explain_method(*rod, options, out);
   }
   for (const auto& branch : scene.branches()) explain_branch(scene, *branch, out);

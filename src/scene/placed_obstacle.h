@@ -13,8 +13,8 @@ enum class Preference { neutral, near, avoid };
 
 struct PlacedObstacle {
   std::string name;
-  Obstacle body;                 ///< contact happens at its own surface: body.offset stays 0
-  double clearance = 0;          ///< m, required; judged in reports and pictures, no force comes from it
+  Obstacle body;                 ///< its name and clearance are set by Scene
+  double clearance = 0;          ///< m, required: judged in reports and pictures, kept by contact where SolveOptions say so
   Preference prefer = Preference::neutral;
   bool clip = true;              ///< rods may be fastened to it
 

@@ -19,7 +19,7 @@ double distance_to(const PlacedObstacle& obstacle, const Vec3& at) {
 }  // namespace
 
 bool can_reach(const PlacedRod& rod, const PlacedObstacle& obstacle) {
-  const double reach = stretch * rod.rod().length + rod.rod().largest_radius();
+  const double reach = stretch * rod.rod().length + rod.rod().largest_radius() + obstacle.clearance;
   double both = 0;
   for (const Hold& hold : rod.holds()) {
     if (!hold.position) continue;

@@ -123,7 +123,12 @@ const PlacedObstacle& Scene::obstacle(std::string_view name) const {
 std::shared_ptr<const Surroundings> Scene::surroundings() const {
   if (!surroundings_ && !obstacles_.empty()) {
     auto all = std::make_shared<Surroundings>();
-    for (const PlacedObstacle& obstacle : obstacles_) all->add(obstacle.body);
+    for (const PlacedObstacle& obstacle : obstacles_) {
+      Obstacle body = obstacle.body;
+      body.clearance = obstacle.clearance;
+      body.name = obstacle.name;
+      all->add(std::move(body));
+    }
     surroundings_ = std::move(all);
   }
   return surroundings_;

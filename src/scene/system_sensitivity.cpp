@@ -78,6 +78,10 @@ std::unique_ptr<SystemSensitivity::Settled> SystemSensitivity::settle(const Syst
   if (touches_) {
     made->contact = std::make_unique<ContactSolver>(made->network, options_);
     made->status = made->contact->run(made->state, &from_, context).newton.status;
+    for (const ContactNetwork::Rod& rod : made->contact->contacts().rods())
+      if (rod.terms->pressed_near_hold())
+        throw UsageError("equilibrium:gradient: a rod is pushed near a hold, where the kept clearance grows; sensitivities are "
+                         "for contact elsewhere");
   } else {
     NewtonOptions newton;
     newton.tolerance = options_.tolerance;

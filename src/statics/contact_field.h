@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "base/vectors.h"
@@ -12,7 +13,7 @@ namespace tendril {
 /// inclusion-exclusion sum over faces, edges and vertices of the surroundings.
 struct DistanceTerm {
   double weight;    ///< +1 for a face, -(n-1) for an edge of n faces, ... ; solids have one term of weight +1
-  double distance;  ///< m, minus the obstacle's offset; negative only inside a closed solid
+  double distance;  ///< m; negative inside a closed solid or a kept clearance
   Vec3 normal;      ///< gradient of the distance: unit vector from the surface to the point
   Mat3 hessian;     ///< second derivative of the distance, 1/m; zero on a face
   int obstacle;     ///< which obstacle it belongs to
@@ -34,6 +35,10 @@ struct ClosestPoint {
 };
 
 /// The solid surroundings of a rod. All calls are const and safe from several threads.
+///
+/// An obstacle may require a clearance. closest() and terms() measure from its surface all the same; closest_kept() and
+/// terms_kept() from where it acts when the clearance is kept: every obstacle is thickened by its clearance, but by no
+/// more than `most` (m). Points and rays are those of the surface itself.
 class ContactField {
  public:
   virtual ~ContactField() = default;
@@ -46,6 +51,17 @@ class ContactField {
 
   /// First crossing of a surface on the way from `a` to `b`.
   virtual std::optional<RayHit> ray(const Vec3& a, const Vec3& b) const = 0;
+
+  /// The clearance that an obstacle requires (m).
+  virtual double clearance(int /*obstacle*/) const { return 0; }
+  virtual double largest_clearance() const { return 0; }
+  virtual ClosestPoint closest_kept(const Vec3& p, double limit, double /*most*/) const { return closest(p, limit); }
+  virtual void terms_kept(const Vec3& p, double range, double /*most*/, std::vector<DistanceTerm>& out) const {
+    terms(p, range, out);
+  }
+
+  /// What messages call an obstacle.
+  virtual std::string name(int /*obstacle*/) const { return "an obstacle"; }
 };
 
 }  // namespace tendril

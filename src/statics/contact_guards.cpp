@@ -46,7 +46,7 @@ double ContactGuard::limit_by_points(const std::vector<Vec3>& moved, std::vector
     const double bound = set_->distance_bound(i, x);
     const double margin = 0.5 * set_->points()[i].radius;
     if (length + margin <= bound || length == 0) continue;
-    if (bound < 0 && set_->at(i)) continue;  // inside a closed solid: the way out is free
+    if (bound < 0 && set_->at(i) && set_->surface_distance(i) < 0) continue;  // inside a closed solid: the way out is free
     ++rays_;
     const auto hit = set_->field().ray(x, moved[i] + motion * (margin / length));
     if (!hit) continue;

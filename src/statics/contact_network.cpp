@@ -4,7 +4,20 @@
 
 namespace tendril {
 
-ContactNetwork::ContactNetwork(const RodNetwork& network, Element element) : network_(&network) {
+namespace {
+
+/// Arc lengths (m) of a rod's sections that held branch points hold.
+std::vector<double> held_by_branches(const RodNetwork& network, int rod) {
+  std::vector<double> held;
+  for (const BranchPoint& branch : network.problem().branches)
+    for (const JoinedSection& section : branch.sections)
+      if (branch.position && section.rod == rod) held.push_back(section.at);
+  return held;
+}
+
+}  // namespace
+
+ContactNetwork::ContactNetwork(const RodNetwork& network, Element element, ClearanceRule clearance) : network_(&network) {
   for (int k = 0; k < network.rods(); ++k) {
     const RodSystem& system = network.rod(k);
     const RodProblem& problem = system.problem();
@@ -14,7 +27,8 @@ ContactNetwork::ContactNetwork(const RodNetwork& network, Element element) : net
     double load = problem.rod.mass() * problem.gravity.norm();
     for (const PointLoad& point : problem.loads) load += point.force.norm();
     const double reference = std::max(load / system.length(), 50 * system.bending_scale() / radius);
-    rods_.push_back({k, radius, reference, std::make_unique<ContactTerms>(system, element, network.first_node(k))});
+    auto terms = std::make_unique<ContactTerms>(system, element, network.first_node(k), clearance, held_by_branches(network, k));
+    rods_.push_back({k, radius, reference, std::move(terms)});
   }
 }
 
@@ -110,7 +124,12 @@ std::optional<ContactNetwork::Crossing> ContactNetwork::first_crossing(const Rod
   for (Rod& rod : rods_) {
     rod.terms->stand_at(state);
     const std::vector<int> crossings = rod.terms->guard().crossings();
-    if (!crossings.empty()) return Crossing{&rod, rod.terms->set().points()[crossings.front()].s};
+    if (crossings.empty()) continue;
+    const ContactSet& set = rod.terms->set();
+    const int i = crossings.front();
+    const double a = set.points()[i].s, b = set.points()[i + 1].s;
+    if (const auto hit = set.field().ray(set.positions()[i], set.positions()[i + 1]))
+      return Crossing{&rod, a + hit->share * (b - a), hit->point, hit->obstacle};
   }
   return std::nullopt;
 }

@@ -11,7 +11,7 @@ namespace tendril {
 class ContactNetwork final : public FurtherTerms {
  public:
   /// Rods without surroundings take no part. The network must outlive this.
-  ContactNetwork(const RodNetwork& network, Element element);
+  ContactNetwork(const RodNetwork& network, Element element, ClearanceRule clearance = ClearanceRule::judge);
 
   double assemble(const RodState& state, Stress stress, BlockSystem& system) override;
   double energy(const RodState& state) override;
@@ -53,10 +53,12 @@ class ContactNetwork final : public FurtherTerms {
   /// The widest gap under a force, in radii.
   double widest_gap(const RodState& state);
 
-  /// A pair of contact points with a surface between them; null: none. The set stands at the state asked for last.
+  /// Where a rod's centre line first passes through a surface; null: nowhere. The set stands at the state asked for last.
   struct Crossing {
     const Rod* rod;
     double s;  ///< m
+    Vec3 at;   ///< m
+    int obstacle;
   };
   std::optional<Crossing> first_crossing(const RodState& state);
 

@@ -77,6 +77,11 @@ ContactPoint curvature_of(const ContactPoint& point, std::span<const double> s, 
   return curvature;
 }
 
+double kept_at(double way, double radius) {
+  const double arc = 8 * radius, x = std::max(0.0, way - radius), bent = std::min(x, 0.5 * arc);
+  return bent * bent / (2 * arc) + 0.5 * (x - bent);
+}
+
 void set_trapezoid_weights(std::span<ContactPoint> points) {
   const int n = static_cast<int>(points.size());
   for (int i = 0; i < n; ++i) {

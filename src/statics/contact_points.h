@@ -21,6 +21,7 @@ struct ContactPoint {
   double radius;    ///< m
   double ra, rb;    ///< H00, H01: weights of the two positions
   double ta, tb;    ///< h H10, h H11: weights of the two section normals, m
+  double keep = 0;  ///< the most of an obstacle's clearance that counts here, m
 };
 
 /// Vertices of a rod as contact sees them. Arrays of segments + 1 entries; the staggered element needs no rotations.
@@ -45,6 +46,10 @@ ContactPoint contact_point_at(std::span<const double> s, std::span<const double>
 /// weights being derivatives of the point's.
 ContactPoint slope_of(const ContactPoint& point, std::span<const double> s, Element element);
 ContactPoint curvature_of(const ContactPoint& point, std::span<const double> s, Element element);
+
+/// How much of a clearance counts at `way` (m) of rod from the nearest held place: none within a radius, then it grows
+/// along an arc of eight radii and from a slope of one half on straight.
+double kept_at(double way, double radius);
 
 /// Sets every point's weight by the trapezoid rule over the arc lengths of its neighbours.
 void set_trapezoid_weights(std::span<ContactPoint> points);

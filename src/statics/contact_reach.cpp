@@ -57,7 +57,7 @@ std::optional<Ball> ball_about_network(const RodNetwork& network) {
 
 }  // namespace
 
-bool can_touch(const RodNetwork& network) {
+bool can_touch(const RodNetwork& network, ClearanceRule clearance) {
   for (int k = 0; k < network.rods(); ++k) {
     const RodProblem& problem = network.rod(k).problem();
     if (!problem.surroundings) continue;
@@ -65,7 +65,8 @@ bool can_touch(const RodNetwork& network) {
     if (!ball) ball = ball_about_network(network);
     if (!ball) return true;
     const double limit = ball->radius + problem.rod.largest_radius();
-    if (problem.surroundings->closest(ball->centre, limit).obstacle >= 0) return true;
+    const double keep = clearance == ClearanceRule::push ? problem.surroundings->largest_clearance() : 0;
+    if (problem.surroundings->closest_kept(ball->centre, limit, keep).obstacle >= 0) return true;
   }
   return false;
 }

@@ -26,7 +26,7 @@ bool ContactSet::out_of_reach(int i, const Vec3& x) {
   double limit = needed + horizon_;
   if (i > 0) {
     // A neighbour in the open vouches for this point, and otherwise bounds the search.
-    const double apart = (x - x_[i - 1]).norm();
+    const double apart = (x - x_[i - 1]).norm() + std::abs(points_[i].keep - points_[i - 1].keep);
     const double neighbour = distance_bound(i - 1, x_[i - 1]);
     if (neighbour - apart >= needed + 2 * points_[i].radius) {
       known_[i] = {x, neighbour - apart};
@@ -35,7 +35,7 @@ bool ContactSet::out_of_reach(int i, const Vec3& x) {
     if (known_[i - 1].at == x_[i - 1] && neighbour > 0) limit = std::min(limit, 1.0001 * (neighbour + apart) + needed);
   }
   ++queries_;
-  known_[i] = {x, field_->closest(x, limit).distance};
+  known_[i] = {x, field_->closest_kept(x, limit, points_[i].keep).distance};
   return known_[i].distance >= needed;
 }
 
@@ -54,7 +54,7 @@ double ContactSet::evaluate(const std::vector<Vec3>& x) {
     }
     terms_.clear();
     ++queries_;
-    field_->terms(x[i], reach(i), terms_);
+    field_->terms_kept(x[i], reach(i), points_[i].keep, terms_);
     double nearest = std::numeric_limits<double>::infinity();
     for (const DistanceTerm& t : terms_) nearest = std::min(nearest, t.distance);
     if (covered(i)) leave_out_covered(i);
@@ -64,7 +64,7 @@ double ContactSet::evaluate(const std::vector<Vec3>& x) {
       known_[i] = {x[i], nearest};
     } else if (known_[i].at != x[i]) {
       ++queries_;
-      known_[i] = {x[i], field_->closest(x[i], reach(i) + horizon_).distance};
+      known_[i] = {x[i], field_->closest_kept(x[i], reach(i) + horizon_, points_[i].keep).distance};
     }
     if (!(c.distance < reach(i))) continue;
     active_[i] = static_cast<int>(contacts_.size());
@@ -134,21 +134,22 @@ void ContactSet::update_shifts(const std::vector<double>& beside) {
 }
 
 ContactSet::Nearest ContactSet::nearest(int i, double range) {
-  if (const PointContact* c = at(i)) return {c->distance, c->normal};
+  if (const PointContact* c = at(i)) return {c->distance, c->normal, c->obstacle};
   Nearest nearest;
   if (distance_bound(i, x_[i]) >= range) return nearest;
   ++queries_;
   if (!covered(i)) {
     // One closest point is far cheaper than all that lies within the range.
-    const ClosestPoint c = field_->closest(x_[i], range);
-    if (c.obstacle >= 0 && c.distance != 0) nearest = {c.distance, (x_[i] - c.point) / c.distance};
+    const ClosestPoint c = field_->closest_kept(x_[i], range, points_[i].keep);
+    const double from_surface = c.obstacle < 0 ? 0 : c.distance + thickness(i, c.obstacle);
+    if (from_surface != 0) nearest = {c.distance, (x_[i] - c.point) / from_surface, c.obstacle};
     return nearest;
   }
   terms_.clear();
-  field_->terms(x_[i], range, terms_);
+  field_->terms_kept(x_[i], range, points_[i].keep, terms_);
   leave_out_covered(i);
   for (const DistanceTerm& t : terms_)
-    if (t.distance < nearest.distance) nearest = {t.distance, t.normal};
+    if (t.distance < nearest.distance) nearest = {t.distance, t.normal, t.obstacle};
   return nearest;
 }
 

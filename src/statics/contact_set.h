@@ -3,6 +3,7 @@
 // that the last Newton step predicted.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "statics/contact_energy.h"
@@ -50,10 +51,17 @@ class ContactSet {
   struct Nearest {
     double distance = std::numeric_limits<double>::infinity();
     Vec3 normal = Vec3::Zero();
+    int obstacle = -1;
   };
   Nearest nearest(int i, double range);
 
-  /// A number that the distance of point i from all surfaces cannot be below when it is at `x` (m).
+  /// How much farther off than its surface an obstacle acts on point i (m).
+  double thickness(int i, int obstacle) const { return std::min(field_->clearance(obstacle), points_[i].keep); }
+
+  /// Of a point with a contact: the distance from the surface itself (m), negative inside a closed solid.
+  double surface_distance(int i) const { return at(i)->distance + thickness(i, at(i)->obstacle); }
+
+  /// A number that the distance of point i from all obstacles, thickened, cannot be below when it is at `x` (m).
   double distance_bound(int i, const Vec3& x) const { return known_[i].distance - (x - known_[i].at).norm(); }
 
   /// Augmented Lagrangian: shift <- max(0, shift + radius - distance) at the last positions. The force stays, the

@@ -28,6 +28,7 @@ void SlidingContacts::add(double s, double length, double shift, const Vec3& dir
   Point point;
   point.at = contact_point_at(s_, radii_, element_, segment, xi);
   point.at.weight = length;
+  point.at.keep = keep_;
   point.shift = shift;
   point.direction = direction;
   points_.push_back(point);
@@ -47,11 +48,13 @@ ContactPoint SlidingContacts::place(int near, double s) const {
 /// The distance of the nearest surface that lies against a direction; `limit` when there is none nearer.
 double SlidingContacts::distance_facing(const Vec3& x, const Vec3& direction, double limit) {
   // Mostly the closest point is the one: far cheaper than all that lies within the limit.
-  const ClosestPoint c = field_->closest(x, limit);
+  const ClosestPoint c = field_->closest_kept(x, limit, keep_);
   if (c.obstacle < 0 || c.distance >= limit) return limit;
-  if (c.distance != 0 && faces({1, c.distance, (x - c.point) / c.distance, Mat3::Zero(), c.obstacle}, direction)) return c.distance;
+  const double from_surface = c.distance + std::min(field_->clearance(c.obstacle), keep_);
+  if (from_surface != 0 && faces({1, c.distance, (x - c.point) / from_surface, Mat3::Zero(), c.obstacle}, direction))
+    return c.distance;
   terms_.clear();
-  field_->terms(x, limit, terms_);
+  field_->terms_kept(x, limit, keep_, terms_);
   double nearest = limit;
   for (const DistanceTerm& t : terms_)
     if (faces(t, direction)) nearest = std::min(nearest, t.distance);
@@ -73,10 +76,11 @@ double SlidingContacts::look_at(Point& p, double s, const VertexShape& shape, co
   const double weight = p.at.weight;
   p.at = place(p.at.segment, s);
   p.at.weight = weight;
+  p.at.keep = keep_;
   p.x = position_of(p.at, shape);
   const double reach = p.at.radius + p.shift;
   terms_.clear();
-  field_->terms(p.x, reach, terms_);
+  field_->terms_kept(p.x, reach, keep_, terms_);
   std::erase_if(terms_, [&](const DistanceTerm& t) { return !faces(t, p.direction); });
   p.contact = contact_at(terms_, reach, p.at.weight, law);
   p.active = p.contact.distance < reach;
@@ -170,13 +174,7 @@ bool SlidingContacts::tidy() {
 }
 
 std::vector<SlidingContacts::Point> SlidingContacts::take_flat(double sharpness, const VertexShape& shape) {
-  std::vector<Point> flat;
-  std::erase_if(points_, [&](const Point& p) {
-    if (!p.active || sharpness_of(p, shape) >= sharpness) return false;
-    flat.push_back(p);
-    return true;
-  });
-  return flat;
+  return take_if([&](const Point& p) { return p.active && sharpness_of(p, shape) < sharpness; });
 }
 
 double SlidingContacts::deepest() const {

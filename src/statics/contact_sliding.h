@@ -8,6 +8,7 @@
 // edge the second part takes away just the curvature that would push a fixed point off the edge: sliding costs nothing.
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -17,9 +18,11 @@ namespace tendril {
 
 class SlidingContacts {
  public:
-  /// `s`: the vertices' arc lengths (m), `radii`: one for each segment (m); they and `field` must outlive this.
-  SlidingContacts(const ContactField& field, std::span<const double> s, std::span<const double> radii, Element element)
-      : field_(&field), s_(s), radii_(radii), element_(element) {}
+  /// `s`: the vertices' arc lengths (m), `radii`: one for each segment (m); they and `field` must outlive this. `keep`:
+  /// the most of the obstacles' clearances that counts (m).
+  SlidingContacts(const ContactField& field, std::span<const double> s, std::span<const double> radii, Element element,
+                  double keep = 0)
+      : field_(&field), s_(s), radii_(radii), element_(element), keep_(keep) {}
 
   struct Point {
     ContactPoint at;                ///< where it stands; `at.weight` is the length of rod it stands for
@@ -69,10 +72,23 @@ class SlidingContacts {
   /// edge across a straight rod, 0 for a plane.
   std::vector<Point> take_flat(double sharpness, const VertexShape& shape);
 
+  /// Takes out the points where less than the whole clearance of their obstacle counts; `kept`: how much does at an arc length.
+  template <class F>
+  std::vector<Point> take_near_holds(F kept) {
+    return take_if([&](const Point& p) { return p.active && kept(p.at.s) < field_->clearance(p.contact.obstacle); });
+  }
+
   /// The largest radius - distance (m); minus infinity without any.
   double deepest() const;
 
  private:
+  template <class F>
+  std::vector<Point> take_if(F unwanted) {
+    const auto rest = std::stable_partition(points_.begin(), points_.end(), [&](const Point& p) { return !unwanted(p); });
+    std::vector<Point> taken(rest, points_.end());
+    points_.erase(rest, points_.end());
+    return taken;
+  }
   void slide(Point& point, const VertexShape& shape, const ContactLaw& law);
   double distance_facing(const Vec3& x, const Vec3& direction, double limit);
   double sharpness_of(const Point& point, const VertexShape& shape);
@@ -82,6 +98,7 @@ class SlidingContacts {
   const ContactField* field_;
   std::span<const double> s_, radii_;
   Element element_;
+  double keep_;
   std::vector<Point> points_;
   std::vector<DistanceTerm> terms_;  ///< of the point at work; kept to reuse its memory
 };

@@ -5,7 +5,6 @@
 #include <cstdio>
 
 #include "base/error.h"
-#include "statics/contact_start.h"
 
 namespace tendril {
 
@@ -31,7 +30,7 @@ ContactSolver::ContactSolver(RodNetwork& network, const SolveOptions& options, c
     : network_(&network),
       options_(options),
       contact_(contact),
-      terms_(network, options.element),
+      terms_(network, options.element, options.clearance),
       newton_(network, &terms_) {}
 
 NewtonOutcome ContactSolver::stage(RodState& state, Start start, double tolerance, int most_iterations, bool descend,
@@ -100,7 +99,10 @@ void ContactSolver::remove_overlap(RodState& state, ContactOutcome& out, const R
   }
 }
 
-RodState ContactSolver::clear_start() { return tendril::clear_start(*network_, terms_).state; }
+std::optional<RodState> ContactSolver::led_around(const RodState& state) {
+  if (!terms_.first_crossing(state)) return std::nullopt;
+  return tendril::clear_start(*network_, terms_, &state).state;
+}
 
 ContactOutcome ContactSolver::run(RodState& state, const SystemEquilibrium* from, const RunContext& context) {
   used_ = 0;
@@ -126,8 +128,7 @@ ContactOutcome ContactSolver::attempt(RodState& state, const SystemEquilibrium* 
   const RodState start = state;
   terms_.forget_forces();
   terms_.set_softness(hardness);
-  if (const auto crossing = terms_.first_crossing(state))
-    out.message = "the start crosses an obstacle at " + place_of(*crossing->rod, crossing->s);
+  if (const auto crossing = terms_.first_crossing(state)) out.message = "the start crosses " + crossing_at(*crossing);
 
   if (from) {
     for (const ContactNetwork::Rod& rod : terms_.rods()) rod.terms->take_forces(from->rods[rod.index].contacts);
@@ -167,16 +168,30 @@ void ContactSolver::judge(const RodState& state, ContactOutcome& out) {
   out.deepest = std::max(0.0, deepest.place.penetration);
   std::string fault;
   if (const auto crossing = terms_.first_crossing(state))
-    fault = "the rod crosses an obstacle at " + place_of(*crossing->rod, crossing->s);
+    fault = "the rod crosses " + crossing_at(*crossing);
   else if (deepest.radii > largest_solved_overlap)
-    fault = text("the rod overlaps an obstacle by %.3g mm at ", 1e3 * out.deepest) + place_of(*deepest.rod, deepest.place.point.s);
+    fault = overlap_at(deepest, state);
   if (fault.empty()) return;
   out.message = (out.message.empty() ? "" : out.message + "; ") + fault;
   if (out.newton.status == Status::solved) out.newton.status = Status::stalled;
 }
 
-std::string ContactSolver::place_of(const ContactNetwork::Rod& rod, double s) const {
-  return text("s = %.4g m", s) + (network_->rods() > 1 ? " of rod " + std::to_string(rod.index + 1) : "");
+std::string ContactSolver::place_of(const ContactNetwork::Rod& rod, double s, const Vec3& at) const {
+  return text("s = %.4g m", s) + (network_->rods() > 1 ? " of rod " + std::to_string(rod.index + 1) : "") +
+         text(" (%.4g, ", at.x()) + text("%.4g, ", at.y()) + text("%.4g)", at.z());
+}
+
+std::string ContactSolver::crossing_at(const ContactNetwork::Crossing& crossing) const {
+  return crossing.rod->terms->set().field().name(crossing.obstacle) + " at " + place_of(*crossing.rod, crossing.s, crossing.at);
+}
+
+std::string ContactSolver::overlap_at(const ContactNetwork::Deepest& deepest, const RodState& state) const {
+  const ContactTerms& terms = *deepest.rod->terms;
+  const std::string name = terms.set().field().name(deepest.place.obstacle);
+  const std::string depth = text("%.3g mm ", 1e3 * deepest.place.penetration);
+  const std::string place = place_of(*deepest.rod, deepest.place.point.s, terms.position_at(deepest.place.point.s, state));
+  if (deepest.place.point.keep == 0) return "the rod overlaps " + name + " by " + depth + "at " + place;
+  return "the rod comes " + depth + "nearer to " + name + " than its clearance at " + place;
 }
 
 void ContactSolver::add_exact(const RodState& state, BlockSystem& system) {
@@ -203,14 +218,15 @@ void ContactSolver::describe(const RodState& state, int rod, Equilibrium& out) {
     const PointContact* c = set.at(i);
     if (!c || c->gradient.isZero(0)) continue;
     const ContactPoint& p = set.points()[i];
-    out.contacts.push_back({p.s, set.positions()[i], -c->gradient, c->distance - p.radius, c->obstacle});
+    out.contacts.push_back({p.s, set.positions()[i], -c->gradient, set.surface_distance(i) - p.radius, c->obstacle});
     // What the shift adds is bookkeeping of the method, not stored energy.
     out.energy.contact += p.weight * set.law.at(p.radius - c->distance).energy;
   }
   for (const SlidingContacts::Point& p : terms->sliding().points()) {
     const PointContact& c = p.contact;
     if (!p.active || c.gradient.isZero(0)) continue;
-    out.contacts.push_back({p.at.s, p.x, -c.gradient, c.distance - p.at.radius, c.obstacle});
+    const double gap = c.distance + std::min(set.field().clearance(c.obstacle), p.at.keep) - p.at.radius;
+    out.contacts.push_back({p.at.s, p.x, -c.gradient, gap, c.obstacle});
     out.energy.contact += p.at.weight * set.law.at(p.at.radius - c.distance).energy;
   }
   std::sort(out.contacts.begin(), out.contacts.end(), [](const ContactForce& a, const ContactForce& b) { return a.s < b.s; });

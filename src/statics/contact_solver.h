@@ -6,9 +6,11 @@
 // Not done: friction, self-contact, supports that stand inside an obstacle.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "statics/contact_network.h"
+#include "statics/contact_start.h"
 
 namespace tendril {
 
@@ -34,7 +36,10 @@ class ContactSolver {
   ContactSolver(RodNetwork& network, const SolveOptions& options, const ContactOptions& contact = {});
 
   /// Where a cold start begins: the first guess, changed where it would cross the surroundings (contact_start.h).
-  RodState clear_start();
+  RodState clear_start() { return tendril::clear_start(*network_, terms_).state; }
+
+  /// A given shape, led around what it crosses; nothing when it is free of crossings.
+  std::optional<RodState> led_around(const RodState& state);
 
   /// Moves `state` to an equilibrium. `from`: a solution whose contact forces to start from; null: a cold start.
   ContactOutcome run(RodState& state, const SystemEquilibrium* from, const RunContext& context);
@@ -66,7 +71,9 @@ class ContactSolver {
   void judge(const RodState& state, ContactOutcome& out);
   double loose(double step) const;
   bool over(const ContactOutcome& out) const;
-  std::string place_of(const ContactNetwork::Rod& rod, double s) const;
+  std::string place_of(const ContactNetwork::Rod& rod, double s, const Vec3& at) const;
+  std::string crossing_at(const ContactNetwork::Crossing& crossing) const;
+  std::string overlap_at(const ContactNetwork::Deepest& deepest, const RodState& state) const;
 
   RodNetwork* network_;
   SolveOptions options_;

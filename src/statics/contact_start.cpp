@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "base/units.h"
+#include "statics/contact_detour.h"
 #include "statics/first_guess.h"
 #include "statics/network_guess.h"
 
@@ -21,6 +23,8 @@ constexpr std::array<SpanVariant, 18> span_variants{
     // What hangs comes before what stands: a rod that arches over something would stay there.
     {{1, 0},    {1, 45},   {1, -45},  {1, 90},    {1, -90}, {0.7, 0},   {0.4, 0},   {0.15, 0},   {0.4, 90},
      {0.4, -90}, {1, 135}, {1, -135}, {1, 180},   {0.4, 180}, {0, 0},   {0.15, 90}, {0.15, -90}, {0.15, 180}}};
+
+constexpr int most_detours = 4;  // one after the other
 
 /// How free ends differ: curled by so much in all (degrees), away from gravity turned by `turn` about the tangent.
 struct TailVariant {
@@ -116,6 +120,38 @@ class Search {
       : network_(network), guess_(guess), rod_(rod), terms_(terms), out_(out), fewest_(crossings_of(guess.rods[rod])) {}
 
   bool done() const { return fewest_ == 0; }
+  const std::vector<Frame>& best() const { return guess_.rods[rod_]; }
+
+  /// Where the frames first cross a surface.
+  std::optional<CrossingPlace> first_crossing(const std::vector<Frame>& frames) {
+    crossings_of(frames);
+    const ContactSet& set = terms_.set();
+    for (const int i : terms_.guard().crossings())
+      if (const auto hit = set.field().ray(set.positions()[i], set.positions()[i + 1]))
+        return CrossingPlace{set.points()[i].s, hit->point, hit->normal};
+    return std::nullopt;
+  }
+
+  /// Keeps, of all ways around what `base` crosses first, the one with the fewest crossings left; of several, that which
+  /// suits the length best.
+  bool consider_detours(const std::vector<Frame>& base, const RodMesh& mesh) {
+    const auto crossing = first_crossing(base);
+    if (!crossing) return false;
+    const CrossedShape shape{base, mesh.s, mesh.hold_vertex, terms_.set().points().front().radius};
+    const std::vector<Frame>* best = nullptr;
+    const auto ways = detours(shape, *crossing, terms_.set().field());
+    double misfit = std::numeric_limits<double>::infinity();
+    for (const std::vector<Frame>& way : ways) {
+      const int crossings = crossings_of(way);
+      const double by = std::abs(length_of(way) - mesh.s.back());
+      if (crossings > fewest_ || (crossings == fewest_ && by >= misfit)) continue;
+      best = &way;
+      fewest_ = crossings;
+      misfit = by;
+    }
+    if (best) guess_.rods[rod_] = *best;
+    return best != nullptr;
+  }
   int fewest() const { return fewest_; }
 
   /// Keeps the frames when they cross less.
@@ -145,6 +181,12 @@ class Search {
   int fewest_;
 };
 
+/// Around one thing after the other.
+void lead_around(const RodMesh& mesh, Search& search) {
+  for (int k = 0; k < most_detours && !search.done(); ++k)
+    if (!search.consider_detours(search.best(), mesh)) return;
+}
+
 void clear_rod(const RodProblem& problem, const RodMesh& mesh, const std::vector<Frame>& usual, Search& search) {
   if (search.done() || mesh.hold_vertex.empty()) return;
   const Chord chord = chord_of(problem);
@@ -161,19 +203,34 @@ void clear_rod(const RodProblem& problem, const RodMesh& mesh, const std::vector
     curl_tails(problem, mesh, tail_variants[k], other);
     search.consider(other);
   }
+  // The less a rod sags the more length is left for a way around.
+  if (!search.done()) search.consider_detours(usual, mesh);
+  for (const SpanVariant& variant : {SpanVariant{0.4, 0}, SpanVariant{0, 0}})
+    if (spans_vary && !search.done()) search.consider_detours(guess(problem, mesh, chord, variant), mesh);
+  lead_around(mesh, search);
+}
+
+/// The frames of a state, by rod and branch point.
+NetworkGuess guess_of(const RodNetwork& network, const RodState& state) {
+  NetworkGuess guess;
+  for (int k = 0; k < network.rods(); ++k) guess.rods.push_back(network.rod(k).frames_of(network.of_rod(k, state)));
+  for (std::size_t b = 0; b < network.problem().branches.size(); ++b)
+    guess.branches.push_back(network.branch_frame(static_cast<int>(b), state));
+  return guess;
 }
 
 }  // namespace
 
-ContactStart clear_start(const RodNetwork& network, ContactNetwork& contact) {
+ContactStart clear_start(const RodNetwork& network, ContactNetwork& contact, const RodState* near) {
   ContactStart out;
-  NetworkGuess guess = network_guess(network);
+  NetworkGuess guess = near ? guess_of(network, *near) : network_guess(network);
   for (const ContactNetwork::Rod& rod : contact.rods()) {
     RodProblem problem = network.rod(rod.index).problem();
     RodMesh mesh = network.rod(rod.index).mesh();
     hold_at_branches(network, guess, rod.index, problem, mesh);
     const std::vector<Frame> usual = guess.rods[rod.index];
     Search search(network, guess, rod.index, *rod.terms, out);
+    if (near) lead_around(mesh, search);
     clear_rod(problem, mesh, usual, search);
     out.crossings += search.fewest();
   }

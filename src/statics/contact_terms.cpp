@@ -17,6 +17,14 @@ constexpr double covered_side = 0.75;   // radii to both sides of a sliding poin
                                         // point there is at least a quarter of the radius off
 constexpr double flat_enough = 0.3;     // below this a sliding point gives its force back to the fixed ones
 
+std::vector<double> held_places(const RodSystem& system, const std::vector<double>& also_held) {
+  std::vector<double> held = also_held;
+  const RodProblem& problem = system.problem();
+  for (std::size_t i = 0; i < problem.holds.size(); ++i)
+    if (problem.holds[i].position) held.push_back(system.mesh().s[system.mesh().hold_vertex[i]]);
+  return held;
+}
+
 std::vector<double> radii_of(const RodMesh& mesh) {
   std::vector<double> radii;
   for (const MeshSegment& segment : mesh.segments) radii.push_back(segment.section.radius());
@@ -55,19 +63,40 @@ double overlap_under(const ContactLaw& law, double force) {
 
 }  // namespace
 
-ContactTerms::ContactTerms(const RodSystem& system, Element element, int first_node)
+ContactTerms::ContactTerms(const RodSystem& system, Element element, int first_node, ClearanceRule clearance,
+                           const std::vector<double>& also_held)
     : system_(&system),
       element_(element),
       first_(first_node),
       radii_(radii_of(system.mesh())),
-      set_(*system.problem().surroundings, contact_points(system.mesh().s, radii_, element), 0.25 * system.length()),
-      sliding_(*system.problem().surroundings, system.mesh().s, radii_, element),
+      held_s_(held_places(system, also_held)),
+      keep_(clearance == ClearanceRule::push ? system.problem().surroundings->largest_clearance() : 0),
+      set_(*system.problem().surroundings, placed_points(), 0.25 * system.length()),
+      sliding_(*system.problem().surroundings, system.mesh().s, radii_, element, keep_),
       guard_(set_) {
-  const RodProblem& problem = system.problem();
-  for (std::size_t i = 0; i < problem.holds.size(); ++i)
-    if (problem.holds[i].position) held_s_.push_back(system.mesh().s[system.mesh().hold_vertex[i]]);
   for (int i = 0; i < set_.size(); ++i)
-    if (near_hold(set_.points()[i].s, set_.points()[i].radius)) set_.exclude(i);
+    if (way_to_hold(set_.points()[i].s) <= set_.points()[i].radius * (1 + 1e-9)) set_.exclude(i);
+}
+
+std::vector<ContactPoint> ContactTerms::placed_points() const {
+  std::vector<ContactPoint> points = contact_points(system_->mesh().s, radii_, element_);
+  for (ContactPoint& p : points) p.keep = kept(p.s, p.radius);
+  return points;
+}
+
+double ContactTerms::kept(double s, double radius) const {
+  return keep_ == 0 ? 0.0 : std::min(keep_, kept_at(way_to_hold(s), radius));
+}
+
+/// Where the clearance still grows a point that slides would have to climb: fixed ones alone make up contact there.
+bool ContactTerms::grows(int i, int obstacle) const {
+  return obstacle >= 0 && set_.points()[i].keep < set_.field().clearance(obstacle) && keep_ > 0;
+}
+
+bool ContactTerms::pressed_near_hold() const {
+  for (int i = 0; i < set_.size(); ++i)
+    if (const PointContact* c = set_.at(i); c && !c->gradient.isZero(0) && grows(i, c->obstacle)) return true;
+  return false;
 }
 
 VertexShape ContactTerms::shape_of(const RodState& state) const {
@@ -79,9 +108,10 @@ std::span<const Vec6> ContactTerms::own(const std::vector<Vec6>& step) const {
   return {step.data() + first_, static_cast<std::size_t>(system_->nodes())};
 }
 
-bool ContactTerms::near_hold(double s, double radius) const {
-  return std::any_of(held_s_.begin(), held_s_.end(),
-                     [&](double held) { return std::abs(s - held) <= radius * (1 + 1e-9); });
+double ContactTerms::way_to_hold(double s) const {
+  double way = std::numeric_limits<double>::infinity();
+  for (const double held : held_s_) way = std::min(way, std::abs(s - held));
+  return way;
 }
 
 double ContactTerms::stand_at(const RodState& state) {
@@ -153,7 +183,7 @@ double ContactTerms::allowed(const RodState& state, const std::vector<Vec6>& ste
   if (early_end_) {
     double nearest = 1;
     for (int i = 0; i < set_.size(); ++i)
-      if (const PointContact* c = set_.at(i)) nearest = std::min(nearest, c->distance / set_.points()[i].radius);
+      if (set_.at(i)) nearest = std::min(nearest, set_.surface_distance(i) / set_.points()[i].radius);
     cut_short_ = nearest < nearly_through && guarded.share < cut * share ? cut_short_ + 1 : 0;
     if (cut_short_ >= 3) return 0;
   }
@@ -213,8 +243,9 @@ ContactTerms::Deepest ContactTerms::deepest_between(const Station& low, const St
   const auto overlap_at = [&](double s) {
     ContactPoint p = contact_point_at(mesh.s, radii_, element_, segment, (s - mesh.s[segment]) / mesh.segments[segment].length);
     p.radius = reach;
+    p.keep = kept(s, reach);
     const Vec3 position = position_of(p, shape);
-    const ClosestPoint c = set_.field().closest(position, 2 * reach + apart);
+    const ClosestPoint c = set_.field().closest_kept(position, 2 * reach + apart, p.keep);
     if (reach - c.distance > deepest.penetration) deepest = {reach - c.distance, c.obstacle, p, (position - c.point).normalized()};
     return reach - c.distance;
   };
@@ -231,6 +262,14 @@ ContactTerms::Deepest ContactTerms::deepest_between(const Station& low, const St
   const double aside = fall > 0 ? std::clamp(0.5 * (looks[best + 1] - looks[best - 1]) / fall, -1.0, 1.0) : 0.0;
   if (std::abs(aside) > 1e-3) overlap_at(low.s + (best + aside) * part);
   return deepest;
+}
+
+Vec3 ContactTerms::position_at(double s, const RodState& state) const {
+  const std::vector<double>& at = system_->mesh().s;
+  const auto after = std::upper_bound(at.begin(), at.end(), s);
+  const int segment = std::clamp(static_cast<int>(after - at.begin()) - 1, 0, static_cast<int>(at.size()) - 2);
+  const double share = std::clamp((s - at[segment]) / (at[segment + 1] - at[segment]), 0.0, 1.0);
+  return position_of(contact_point_at(at, radii_, element_, segment, share), shape_of(state));
 }
 
 ContactTerms::Deepest ContactTerms::deepest_at(const RodState& state) {
@@ -259,11 +298,15 @@ void ContactTerms::track_edges(const RodState& state) {
   const VertexShape shape = shape_of(state);
   bool changed = sliding_.tidy();
   std::vector<double> shifts = set_.shifts();
-  for (const SlidingContacts::Point& p : sliding_.take_flat(flat_enough, shape)) {
-    const int i = point_before(p.at.s);
-    for (int k : {i, i + 1}) shifts[k] = std::max(shifts[k], 0.5 * p.shift);
-    changed = true;
-  }
+  const auto give_back = [&](const std::vector<SlidingContacts::Point>& taken) {
+    for (const SlidingContacts::Point& p : taken) {
+      const int i = point_before(p.at.s);
+      for (int k : {i, i + 1}) shifts[k] = std::max(shifts[k], 0.5 * p.shift);
+      changed = true;
+    }
+  };
+  give_back(sliding_.take_flat(flat_enough, shape));
+  if (keep_ > 0) give_back(sliding_.take_near_holds([&](double s) { return kept(s, set_.points()[point_before(s)].radius); }));
   ContactSet::Nearest at_a, at_b;
   Vec3 tangent_b = Vec3::Zero();
   bool known = false;  // of point i, from the interval before
@@ -281,6 +324,7 @@ void ContactTerms::track_edges(const RodState& state) {
     tangent_b = position_of(slope_of(b, system_->mesh().s, element_), shape);
     known = true;
     if (!std::isfinite(at_a.distance) || !std::isfinite(at_b.distance)) continue;
+    if (grows(i, at_a.obstacle) || grows(i + 1, at_b.obstacle)) continue;
     const Dip dip = dip_between(at_a.distance, at_a.normal.dot(tangent_a), at_b.distance, at_b.normal.dot(tangent_b), h);
     if (dip.distance >= a.radius || a.radius * dip.curvature < sharp_enough) continue;
     const Vec3 direction = (at_a.normal + at_b.normal).normalized();
@@ -307,7 +351,7 @@ void ContactTerms::update_shifts(const RodState& state, double most) {
     const Deepest between = deepest_between(low, high, shape);
     if (between.penetration <= std::max(low.overlap, high.overlap)) continue;
     if (low.covered || high.covered) {
-      if (between.penetration > most * between.point.radius) further_edges.push_back(between);
+      if (between.penetration > most * between.point.radius && !grows(low.point, between.obstacle)) further_edges.push_back(between);
       continue;
     }
     if (set_.at(low.point)) beside[low.point] = std::max(beside[low.point], between.penetration - low.overlap);

@@ -11,8 +11,10 @@ class ContactTerms final : public FurtherTerms {
  public:
   /// Points along the rod of `system` against its problem's surroundings, which must outlive this. Points within one
   /// radius of a held position take no part: a rod leaves its fitting there.
-  /// `first_node`: where the rod's nodes begin in the states, steps and systems that are given.
-  ContactTerms(const RodSystem& system, Element element, int first_node = 0);
+  /// `first_node`: where the rod's nodes begin in the states, steps and systems that are given. `also_held`: arc lengths
+  /// (m) of sections that a held branch point holds.
+  ContactTerms(const RodSystem& system, Element element, int first_node = 0,
+               ClearanceRule clearance = ClearanceRule::judge, const std::vector<double>& also_held = {});
   ContactTerms(const ContactTerms&) = delete;  // parts point at each other
   ContactTerms& operator=(const ContactTerms&) = delete;
 
@@ -39,10 +41,16 @@ class ContactTerms final : public FurtherTerms {
   ContactSet& set() { return set_; }
   const ContactSet& set() const { return set_; }
   const SlidingContacts& sliding() const { return sliding_; }
+
+  /// True when a force acts where only a part of the obstacle's clearance counts (contact_points.h, kept_at()).
+  bool pressed_near_hold() const;
   ContactGuard& guard() { return guard_; }
 
   /// Evaluates the set at a state unless it stands there already. Returns the energy.
   double stand_at(const RodState& state);
+
+  /// Place of the centre line at an arc length (m).
+  Vec3 position_at(double s, const RodState& state) const;
 
   /// Where the rod between the points, looked at four times more finely, overlaps deepest (m; negative: nowhere).
   struct Deepest {
@@ -86,13 +94,17 @@ class ContactTerms final : public FurtherTerms {
   Deepest deepest_between(const Station& low, const Station& high, const VertexShape& shape) const;
   void track_edges(const RodState& state);
   int point_before(double s) const;
-  bool near_hold(double s, double radius) const;
+  std::vector<ContactPoint> placed_points() const;
+  double way_to_hold(double s) const;
+  double kept(double s, double radius) const;
+  bool grows(int i, int obstacle) const;
 
   const RodSystem* system_;
   Element element_;
   int first_;                        ///< node
   std::vector<double> radii_;        ///< per segment
   std::vector<double> held_s_;       ///< arc lengths of held positions
+  double keep_;                      ///< m, the largest clearance that pushes
   ContactSet set_;
   SlidingContacts sliding_;
   ContactGuard guard_;

@@ -69,7 +69,7 @@ struct Equilibrium {
   std::vector<Vec3> moments;         ///< per segment: internal moment m at mid-segment, section frame, N m
   std::vector<Reaction> reactions;   ///< one per hold, in the problem's order, then one per branch point that it belongs to
   std::vector<ContactForce> contacts;
-  double deepest_penetration = 0;    ///< m, 0 without contact
+  double deepest_penetration = 0;    ///< m, 0 without contact; into the clearance where that pushes
 
   /// Points of the centre line at most `spacing` (m) apart, vertices included, with their arc lengths.
   struct Sample {

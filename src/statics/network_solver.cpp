@@ -113,7 +113,7 @@ NetworkSolver::NetworkSolver(const SystemProblem& problem, const SolveOptions& o
       refinement_(refinement),
       network_(std::make_unique<RodNetwork>(problem, options, segments_of(problem), refinement)),
       newton_(*network_, nullptr) {
-  if (can_touch(*network_)) contact_ = std::make_unique<ContactSolver>(*network_, options_);
+  if (can_touch(*network_, options_.clearance)) contact_ = std::make_unique<ContactSolver>(*network_, options_);
 }
 
 RodState NetworkSolver::starting_state(const SystemEquilibrium* from) const {
@@ -257,6 +257,11 @@ NewtonOutcome NetworkSolver::by_staggered(RodState& state, int most, const RunCo
 SystemEquilibrium NetworkSolver::solve_in_contact(const RunContext& context, const SystemEquilibrium* from) {
   SystemEquilibrium out;
   RodState state = starting_state(from);
+  if (from)
+    if (std::optional<RodState> aside = contact_->led_around(state)) {
+      state = std::move(*aside);
+      from = nullptr;
+    }
   const ContactOutcome outcome = contact_->run(state, from, context);
   describe(state, out);
   const bool solved = outcome.newton.status == Status::solved;

@@ -74,6 +74,11 @@ struct SystemProblem {
   void check() const;
 };
 
+/// What a clearance that an obstacle requires means to contact. judge: nothing, the rod may touch the surface. push: the
+/// obstacle is felt at the clearance already. Near a held place the clearance grows from nothing along an arc of eight
+/// radii, then at one in two, so that rods can be fastened to what they keep clear of.
+enum class ClearanceRule { judge, push };
+
 struct SolveOptions {
   Element element = Element::se3;
   ClampRule clamp = ClampRule::half_cell;
@@ -81,6 +86,7 @@ struct SolveOptions {
   int max_iterations = 2000; ///< over all stages and fallbacks
   bool stable_only = true;   ///< leave saddles; false: take the equilibrium nearest to the start
   bool error = false;        ///< also estimate the discretisation error
+  ClearanceRule clearance = ClearanceRule::judge;
   bool follow = false;       ///< where a warm start does not lead on, run down the energy from it instead of starting anew
 };
 

@@ -3,6 +3,7 @@
 //   bench_contact                                the benchmarks
 //   bench_contact table [cases [seed [family]]]  the table, in Markdown: solved, passes, microseconds, overlap, rods that
 //                                                passed through a surface
+//   bench_contact crossings [cases [seed]]       starts that cross a sheet: freed, reported
 //
 // Times of the table leave out the making of the obstacle and its tree.
 
@@ -91,6 +92,41 @@ void print_table(int cases, std::uint64_t seed, const std::string& only) {
   }
 }
 
+/// Starts across a sheet: how many end free, cold and when the sheet appears across an equilibrium; the others are reported.
+void print_crossings(int cases, std::uint64_t seed) {
+  std::printf("| start | cold: free | reported | silent | passes 50 / 90 %% | us | from an equilibrium: free | reported | silent | passes 50 / 90 %% |\n");
+  std::printf("|---|---|---|---|---|---|---|---|---|---|\n");
+  for (const ContactFamily& family : crossing_families()) {
+    int free[2] = {0, 0}, silent[2] = {0, 0};
+    std::vector<int> passes[2];
+    std::vector<double> times;
+    for (int k = 0; k < cases; ++k) {
+      std::mt19937_64 random(seed + k);
+      const ContactCase one = family.make(random, as_surroundings());
+      RodProblem without = one.problem;
+      without.surroundings = nullptr;
+      const Equilibrium bare = solve(without);
+      for (const bool warm : {false, true}) {
+        const auto start = std::chrono::steady_clock::now();
+        const Equilibrium eq = solve(one.problem, {}, {}, warm ? &bare : nullptr);
+        if (!warm) times.push_back(microseconds_since(start));
+        passes[warm].push_back(eq.iterations);
+        const bool crosses = one.tunnelled(eq);
+        free[warm] += eq.ok() && !crosses;
+        silent[warm] += eq.ok() && crosses;
+      }
+    }
+    std::printf("| %s |", family.name.c_str());
+    for (const int warm : {0, 1}) {
+      std::printf(" %d of %d | %d | %d | %.0f / %.0f |", free[warm], cases, cases - free[warm] - silent[warm], silent[warm],
+                  at_share(passes[warm], 0.5), at_share(passes[warm], 0.9));
+      if (!warm) std::printf(" %.0f |", at_share(times, 0.5));
+    }
+    std::printf("\n");
+    std::fflush(stdout);
+  }
+}
+
 /// A hose of 60 segments on hills of a million triangles; the tree is built before the clock starts.
 struct HoseOnHills {
   std::shared_ptr<ContactField> field;
@@ -164,6 +200,10 @@ BENCHMARK(same_hose_without_obstacles)->Unit(benchmark::kMicrosecond);
 int main(int argc, char** argv) {
   if (argc > 1 && std::strcmp(argv[1], "table") == 0) {
     print_table(argc > 2 ? std::atoi(argv[2]) : 500, argc > 3 ? std::strtoull(argv[3], nullptr, 10) : 1, argc > 4 ? argv[4] : "");
+    return 0;
+  }
+  if (argc > 1 && std::strcmp(argv[1], "crossings") == 0) {
+    print_crossings(argc > 2 ? std::atoi(argv[2]) : 300, argc > 3 ? std::strtoull(argv[3], nullptr, 10) : 1);
     return 0;
   }
   benchmark::Initialize(&argc, argv);

@@ -138,6 +138,48 @@ check.case("a rod that lies on the floor", function()
   check.near(lying.deepest_penetration, math.max(0, -lying:clearance {}.value), 1e-5)
 end)
 
+check.case("a clearance that is judged, or kept", function()
+  local t = hose.scene()
+  t:obstacle("table", scene.plane {}, {clearance = 12 * mm, pose = frame {at = {0, 0, 0.75}, along = {0, 0, 1}}})
+  t:obstacle("post", scene.sphere {radius = 20 * mm}, {clearance = 5 * mm, pose = frame {at = {0.4, 0, 0.75}, along = {0, 0, 1}}})
+  local judged, kept = t:solve {}, t:solve {clearance = "push"}
+  check.is_true(judged.ok and kept.ok)
+  check.equal(judged:clearance {to = "table"}.ok, false)
+  check.near(judged:rod("hose").min_bend_radius, t:solve {clearance = "judge"}:rod("hose").min_bend_radius, 0)
+  for name, required in pairs {table = 12 * mm, post = 5 * mm} do
+    check.is_true(kept:clearance {to = name} > required - 0.01 * mm)
+  end
+  check.near(kept:clearance {to = "table"}, 12 * mm, 0.01 * mm)
+  local carried = kept:force("hose", "start") + kept:force("hose", "finish")
+  for _, contact in ipairs(kept.contacts) do
+    carried = carried + contact.force
+    check.is_true(contact.gap > 4.9 * mm)
+  end
+  check.near(carried, vec(0, 0, weight), 1e-5)
+  check.equal(t:explain():uses("kept clearance"), false)
+  check.is_true(t:explain {clearance = "push"}:uses("kept clearance"))
+  check.contains(t:explain {clearance = "push"}, "up to 12 mm off")
+  check.raises(function() t:solve {clearance = "pull"} end, "'clearance'", "judge", "push")
+end)
+
+check.case("a start across a sheet is led around it; where there is no way around, the place is told", function()
+  local t, p = hose.scene()
+  local at = hose.scene():solve {}:rod("hose").points[21]
+  local function plate(half)
+    return {points = {{0, -half, -half}, {0, half, -half}, {0, half, half}, {0, -half, half}}, triangles = {{1, 2, 3}, {1, 3, 4}}}
+  end
+  t:obstacle("plate", plate(0.03), {pose = frame {at = at, along = {0, 0, 1}}})
+  local free = t:solve {}
+  check.is_true(free.ok)
+  check.is_true(free:clearance {} > -0.1 * mm)
+  t:remove("plate")
+  t:obstacle("wall", plate(9), {pose = frame {at = at, along = {0, 0, 1}}})
+  local stuck = t:solve {}
+  check.equal(stuck.ok, false)
+  check.equal(stuck.status, "stalled")
+  check.contains(stuck.message, "hose", "crosses obstacle 'wall' at s = ", "(")
+end)
+
 check.case("turning the world turns the answer", function()
   local turned = scene.new {gravity = vec(0, 9.81, 0)}
   local function moved(f) return frame {at = {f.at.x, -f.at.z, f.at.y}, along = {f.along.x, -f.along.z, f.along.y}, up = {f.up.x, -f.up.z, f.up.y}} end

@@ -369,6 +369,58 @@ ContactCase upright_sheet_case(std::mt19937_64& random, const MakeField& make) {
   });
 }
 
+SheetMesh square_sheet(const Frame& sheet, double half) {
+  return SheetMesh::grid(4, 4, [&](double u, double v) {
+    return Vec3(sheet.at + sheet.rotation * Vec3(half * (2 * u - 1), half * (2 * v - 1), 0));
+  });
+}
+
+/// A square sheet that the first guess crosses: across the hose (`cone` about its tangent), or along it when the cone is wide.
+ContactCase crossed_sheet(RodProblem problem, std::mt19937_64& random, const MakeField& make, double cone) {
+  const std::vector<Frame> guess = first_guess(problem, cut_into_segments(problem, 40));
+  for (;;) {
+    const int n = static_cast<int>(guess.size());
+    const Frame& middle = guess[static_cast<int>(uniform(random, 6, n - 6))];
+    const double half = uniform(random, 0.03, 0.15), play = 0.8 * half;
+    const Frame across = Frame::looking(middle.at, near(middle.d3(), cone, random));
+    const Frame sheet{middle.at + uniform(random, -play, play) * across.d1() + uniform(random, -play, play) * across.d2(),
+                      across.rotation};
+    const auto place = [&](int k) { return guess[k].at; };
+    if (passages(sheet, 0, half, n, place).beside == 0) continue;
+    // What is held must be free of the sheet.
+    bool clear = true;
+    for (const Hold& hold : problem.holds) {
+      const Vec3 p = sheet.rotation.conjugate() * (hold.frame.at - sheet.at);
+      const Vec3 out = (p.cwiseAbs() - Vec3(half, half, 0)).cwiseMax(0.0);
+      clear = clear && out.norm() > 3 * problem.rod.largest_radius();
+    }
+    if (!clear) continue;
+    return finished(std::move(problem), make(square_sheet(sheet, half)), [=](const Equilibrium& eq) {
+      const auto samples = eq.sampled(0.001);
+      return passages(sheet, 0, half, static_cast<int>(samples.size()), [&](int k) -> const Vec3& { return samples[k].frame.at; })
+                 .beside > 0;
+    });
+  }
+}
+
+RodProblem slack_hose(std::mt19937_64& random) {
+  return hanging(random, 0, uniform(random, -0.2, 0.2), uniform(random, 0.6, 0.9));
+}
+
+ContactCase sheet_across_case(std::mt19937_64& random, const MakeField& make) {
+  return crossed_sheet(slack_hose(random), random, make, 0.6);
+}
+
+ContactCase sheet_along_case(std::mt19937_64& random, const MakeField& make) {
+  return crossed_sheet(slack_hose(random), random, make, pi);
+}
+
+ContactCase sheet_at_free_end_case(std::mt19937_64& random, const MakeField& make) {
+  RodProblem problem = slack_hose(random);
+  problem.holds.pop_back();
+  return crossed_sheet(std::move(problem), random, make, pi);
+}
+
 /// Three hoses of 0.4 to 0.6 m from clamps around a free branch point.
 SystemProblem three_hoses(std::mt19937_64& random, double height) {
   SystemProblem system;
@@ -437,6 +489,12 @@ std::vector<ContactFamily> contact_families(int terrain_cells) {
 
 std::vector<ContactFamily> further_contact_families() {
   return {{"preformed, box edge", preformed_case}, {"sheets three at a line", upright_sheet_case}};
+}
+
+std::vector<ContactFamily> crossing_families() {
+  return {{"start across a sheet", sheet_across_case},
+          {"start through a sheet any way", sheet_along_case},
+          {"free end through a sheet", sheet_at_free_end_case}};
 }
 
 std::vector<HarnessFamily> harness_families(int terrain_cells) {

@@ -45,6 +45,9 @@ std::vector<ContactFamily> contact_families(int terrain_cells);
 /// a line (no manifold).
 std::vector<ContactFamily> further_contact_families();
 
+/// The first guess crosses a square sheet of 60 to 300 mm. Some of these have no way around it.
+std::vector<ContactFamily> crossing_families();
+
 /// A harness of three rods at a free branch point.
 struct HarnessCase {
   SystemProblem problem;

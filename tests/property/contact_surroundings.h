@@ -6,13 +6,14 @@
 
 namespace tendril::test {
 
-inline MakeField as_surroundings() {
-  return [](const SheetMesh& sheet) {
+/// `clearance` (m): what every obstacle requires.
+inline MakeField as_surroundings(double clearance = 0) {
+  return [clearance](const SheetMesh& sheet) {
     Mesh mesh;
     mesh.vertices = sheet.vertices;
     mesh.triangles = sheet.triangles;
     auto all = std::make_shared<Surroundings>();
-    all->add({std::make_shared<const TriangleSurface>(std::move(mesh)), Frame{}, 0});
+    all->add({std::make_shared<const TriangleSurface>(std::move(mesh)), Frame{}, clearance, "sheet"});
     return all;
   };
 }

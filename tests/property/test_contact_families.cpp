@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "contact_surroundings.h"
+#include "statics/contact_points.h"
 #include "statics/contact_solver.h"
 #include "statics/solve.h"
 
@@ -154,5 +155,103 @@ TEST_CASE("contact families: the tree's field and the sum over every triangle gi
       // Rounding may lead the two to different places on a flat stretch of energy, but not to different energies.
       CHECK(std::abs(a.energy.total() - b.energy.total()) < 1e-4 * (std::abs(a.energy.bend) + std::abs(a.energy.gravity)));
     }
+  }
+}
+
+TEST_CASE("contact families: kept clearances, on systems, preformed rods and sheets three at a line too") {
+  constexpr double kept = 0.008;
+  SolveOptions options;
+  options.clearance = ClearanceRule::push;
+  // Less than what is kept, in radii: nowhere but within a few radii of a hold, where the clearance grows.
+  const auto shortfall = [&](const RodProblem& problem, const Equilibrium& eq, const std::vector<double>& held) {
+    const double radius = problem.rod.largest_radius();
+    double worst = -1;
+    for (const auto& sample : eq.sampled(0.002)) {
+      double way = INFINITY;
+      for (const double at : held) way = std::min(way, std::abs(sample.s - at));
+      if (way < 2 * radius) continue;
+      const double gap = problem.surroundings->closest(sample.frame.at, 1).distance - radius;
+      worst = std::max(worst, (std::min(kept, kept_at(way, radius)) - gap) / radius);
+    }
+    return worst;
+  };
+  std::vector<ContactFamily> families = further_contact_families();
+  for (const ContactFamily& family : contact_families(40))
+    if (family.name == "floor" || family.name == "box edge" || family.name == "V-groove" || family.name == "terrain" ||
+        family.name == "corner")
+      families.push_back(family);
+  for (const ContactFamily& family : families) {
+    int solved = 0;
+    for (int k = 0; k < cases; ++k) {
+      const std::uint64_t seed = first_seed + k;
+      std::mt19937_64 random(seed);
+      const ContactCase one = family.make(random, as_surroundings(kept));
+      const Equilibrium eq = solve(one.problem, options);
+      INFO(family.name << ", seed " << seed << ": " << eq.message << ", " << eq.iterations << " passes");
+      for (const Vec3& p : eq.points) REQUIRE(all_finite(p));
+      if (!eq.ok()) continue;
+      ++solved;
+      std::vector<double> held;
+      for (const Hold& hold : one.problem.holds) held.push_back(hold.at);
+      CHECK(shortfall(one.problem, eq, held) < 2e-3);
+      CHECK(!one.tunnelled(eq));
+      CHECK(unbalanced(one.problem, eq).norm() < 1e-6 * one.problem.rod.mass() * 9.81);
+    }
+    std::printf("%-22s 8 mm kept, seeds %d ... %d: solved %d of %d\n", family.name.c_str(), int(first_seed),
+                int(first_seed) + cases - 1, solved, cases);
+    CHECK(solved >= cases - 1);
+  }
+  for (const HarnessFamily& family : harness_families(40)) {
+    int solved = 0;
+    for (int k = 0; k < cases; ++k) {
+      const std::uint64_t seed = first_seed + k;
+      std::mt19937_64 random(seed);
+      const HarnessCase one = family.make(random, as_surroundings(kept));
+      const SystemEquilibrium eq = solve(one.problem, options);
+      INFO(family.name << ", seed " << seed << ": " << eq.rods[0].message << ", " << eq.rods[0].iterations << " passes");
+      if (!eq.ok()) continue;
+      ++solved;
+      for (std::size_t r = 0; r < eq.rods.size(); ++r) {
+        CHECK(shortfall(one.problem.rods[r], eq.rods[r], {0.0}) < 2e-3);
+        CHECK(!one.tunnelled(eq.rods[r]));
+      }
+    }
+    std::printf("%-22s 8 mm kept, seeds %d ... %d: solved %d of %d\n", family.name.c_str(), int(first_seed),
+                int(first_seed) + cases - 1, solved, cases);
+    CHECK(solved >= cases - 1);
+  }
+}
+
+TEST_CASE("contact families: a start across a sheet is led around it or reported with its place, never solved through it") {
+  constexpr int starts = 60;
+  for (const ContactFamily& family : crossing_families()) {
+    int freed = 0, freed_warm = 0;
+    for (int k = 0; k < starts; ++k) {
+      const std::uint64_t seed = first_seed + k;
+      std::mt19937_64 random(seed);
+      const ContactCase one = family.make(random, as_surroundings());
+      RodProblem without = one.problem;
+      without.surroundings = nullptr;
+      const Equilibrium bare = solve(without);
+      for (const Equilibrium* from : {static_cast<const Equilibrium*>(nullptr), &bare}) {
+        const Equilibrium eq = solve(one.problem, {}, {}, from);
+        INFO(family.name << ", seed " << seed << (from ? ", from an equilibrium: " : ": ") << eq.message);
+        for (const Vec3& p : eq.points) REQUIRE(all_finite(p));
+        const bool crosses = one.tunnelled(eq);
+        if (eq.ok()) {
+          CHECK(!crosses);
+          CHECK(unbalanced(one.problem, eq).norm() < 1e-6 * one.problem.rod.mass() * 9.81);
+          ++(from ? freed_warm : freed);
+        } else if (crosses) {
+          CHECK(eq.message.find(" obstacle 'sheet' ") != std::string::npos);
+          CHECK(eq.message.find(" at s = ") != std::string::npos);
+          CHECK(eq.status == Status::stalled);
+        }
+      }
+    }
+    std::printf("%-30s seeds %d ... %d: free %d of %d, from an equilibrium %d\n", family.name.c_str(), int(first_seed),
+                int(first_seed) + starts - 1, freed, starts, freed_warm);
+    CHECK(freed >= 0.85 * starts);
+    CHECK(freed_warm >= 0.85 * starts);
   }
 }

@@ -20,9 +20,9 @@ struct Energy {
 
 double phi(double d, double range) { return d < range ? std::pow(range - d, 2.5) : 0; }
 
-Energy energy_at(const ContactField& field, const Vec3& p, double range) {
+Energy energy_at(const ContactField& field, const Vec3& p, double range, double most = 0) {
   std::vector<DistanceTerm> terms;
-  field.terms(p, range, terms);
+  field.terms_kept(p, range, most, terms);
   Energy e;
   for (const DistanceTerm& t : terms) {
     const double delta = range - t.distance;
@@ -34,9 +34,9 @@ Energy energy_at(const ContactField& field, const Vec3& p, double range) {
   return e;
 }
 
-Surroundings around(Mesh mesh, const Frame& pose = {}, double offset = 0) {
+Surroundings around(Mesh mesh, const Frame& pose = {}, double clearance = 0) {
   Surroundings field;
-  field.add({std::make_shared<const TriangleSurface>(std::move(mesh)), pose, offset});
+  field.add({std::make_shared<const TriangleSurface>(std::move(mesh)), pose, clearance});
   return field;
 }
 
@@ -186,19 +186,19 @@ TEST_CASE("gradient and Hessian of the energy against finite differences", "[con
     Random random(seed);
     CAPTURE(seed);
     const Frame pose{random.point(2), random.rotation()};
-    const double offset = seed == 63 ? 0.05 : 0;
-    const Surroundings field = around(rough_surface(), pose, offset);
+    const double kept = seed == 63 ? 0.05 : 0;
+    const Surroundings field = around(rough_surface(), pose, kept);
     int checked = 0;
     for (int i = 0; i < 600; ++i) {
       const Vec3 p = pose.at + pose.rotation * random.point(1).cwiseProduct(Vec3(1.2, 1.2, 0.7));
       const double range = 0.3, h = 1e-5;
-      if (field.closest(p, 9).distance + offset < 0.02) continue;
+      if (field.closest(p, 9).distance < 0.02) continue;
       const Vec3 way = random.direction();
-      const Energy e = energy_at(field, p, range);
-      const double by_value = slope([&](double t) { return energy_at(field, p + t * way, range).value; }, h);
+      const Energy e = energy_at(field, p, range, kept);
+      const double by_value = slope([&](double t) { return energy_at(field, p + t * way, range, kept).value; }, h);
       CHECK(e.gradient.dot(way) == Approx(by_value).margin(2e-8));
       // The Hessian jumps where a foot passes from one feature to another: only where both sides agree.
-      const auto gradient = [&](double t) { return energy_at(field, p + t * way, range).gradient; };
+      const auto gradient = [&](double t) { return energy_at(field, p + t * way, range, kept).gradient; };
       const Vec3 forward = (gradient(h) - e.gradient) / h, backward = (e.gradient - gradient(-h)) / h;
       if ((forward - backward).norm() > 1e-3) continue;
       ++checked;
@@ -208,15 +208,22 @@ TEST_CASE("gradient and Hessian of the energy against finite differences", "[con
   }
 }
 
-TEST_CASE("an offset moves the surface out by that much", "[contact]") {
+TEST_CASE("a kept clearance moves the surface out by that much, and no more than is asked for", "[contact]") {
   const Surroundings bare = around(plate(5)), thick = around(plate(5), {}, 0.1);
   const Vec3 p(0.3, 0.2, 0.25);
-  CHECK(thick.closest(p, 9).distance == Approx(0.15));
-  CHECK(thick.closest(p, 9).point.isApprox(Vec3(0.3, 0.2, 0)));
-  CHECK(thick.closest(p, 0.1).obstacle == -1);
-  CHECK(thick.closest(p, 0.1).distance == 0.1);
-  CHECK(energy_at(thick, p, 0.2).value == Approx(energy_at(bare, p, 0.3).value));
-  CHECK(energy_at(thick, p, 0.2).gradient.isApprox(energy_at(bare, p, 0.3).gradient));
+  CHECK(thick.closest(p, 9).distance == Approx(0.25));
+  for (const auto& [most, counts] : {std::pair{9.0, 0.1}, {0.1, 0.1}, {0.04, 0.04}, {0.0, 0.0}}) {
+    CAPTURE(most);
+    CHECK(thick.closest_kept(p, 9, most).distance == Approx(0.25 - counts));
+    CHECK(thick.closest_kept(p, 9, most).point.isApprox(Vec3(0.3, 0.2, 0)));
+    CHECK(thick.closest_kept(p, 0.1, most).obstacle == -1);
+    CHECK(thick.closest_kept(p, 0.1, most).distance == 0.1);
+    CHECK(energy_at(thick, p, 0.2, most).value == Approx(energy_at(bare, p, 0.2 + counts).value));
+    CHECK(energy_at(thick, p, 0.2, most).gradient.isApprox(energy_at(bare, p, 0.2 + counts).gradient));
+  }
+  CHECK(thick.clearance(0) == 0.1);
+  CHECK(thick.largest_clearance() == 0.1);
+  CHECK(bare.largest_clearance() == 0);
 }
 
 TEST_CASE("terms are finite on the surface itself and for degenerate and repeated triangles", "[contact]") {

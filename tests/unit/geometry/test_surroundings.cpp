@@ -136,7 +136,7 @@ TEST_CASE("obstacles that cannot be are refused", "[surroundings]") {
   CHECK_THROWS_WITH(field.add({std::shared_ptr<const TriangleSurface>(), {}, 0}), "obstacle: no mesh was given");
   CHECK_THROWS_WITH(field.add({Solid(Sphere{0}), {}, 0}), "obstacle: radius is 0; a finite length above 0 expected (m)");
   CHECK_THROWS_WITH(field.add({Solid(Sphere{1}), {}, std::nan("")}),
-                    "obstacle: the offset is not finite; a length in m expected");
+                    "obstacle: the clearance is nan m; at least 0 expected");
   CHECK_THROWS_WITH(field.add({Solid(Sphere{1}), {{std::nan(""), 0, 0}, Quat::Identity()}, 0}),
                     "obstacle: the pose is not a frame; a finite place and a unit rotation expected");
   CHECK_THROWS_AS(field.add({Solid(Sphere{1}), {{0, 0, 0}, Quat(2, 0, 0, 0)}, 0}), UsageError);
