@@ -127,9 +127,9 @@ void ContactSet::forget_prediction() { std::fill(predicted_.begin(), predicted_.
 void ContactSet::update_shifts(const std::vector<double>& beside) {
   for (int i = 0; i < size(); ++i) {
     if (excluded_[i]) continue;
-    // Out of reach means distance >= radius + shift, for which the rule gives zero.
+    // Out of reach means distance >= radius + shift, for which the rule gives zero, but for what lies beside.
     const PointContact* c = at(i);
-    shift_[i] = c ? std::max(0.0, reach(i) - c->distance + beside[i]) : 0.0;
+    shift_[i] = c ? std::max(0.0, reach(i) - c->distance + beside[i]) : beside[i];
   }
 }
 

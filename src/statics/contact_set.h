@@ -65,8 +65,8 @@ class ContactSet {
   double distance_bound(int i, const Vec3& x) const { return known_[i].distance - (x - known_[i].at).norm(); }
 
   /// Augmented Lagrangian: shift <- max(0, shift + radius - distance) at the last positions. The force stays, the
-  /// penetration goes. `beside` (m, one a point): how much deeper the rod overlaps beside each point that carries a
-  /// force than at it; the point then rests that much farther off.
+  /// penetration goes. `beside` (m, one a point): how much deeper the rod overlaps beside a point than at it; the point
+  /// then rests that much farther off, and begins to carry a force if it carried none.
   void update_shifts(const std::vector<double>& beside);
   const std::vector<double>& shifts() const { return shift_; }
   void set_shifts(const std::vector<double>& shifts) { shift_ = shifts; }

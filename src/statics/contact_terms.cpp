@@ -354,6 +354,14 @@ void ContactTerms::update_shifts(const RodState& state, double most) {
       if (between.penetration > most * between.point.radius && !grows(low.point, between.obstacle)) further_edges.push_back(between);
       continue;
     }
+    if (!set_.at(low.point) && !set_.at(high.point) && between.penetration > 0) {
+      // An obtuse edge or a bump between two points that both stand clear of it: nothing would hold the rod there.
+      for (const int i : {low.point, high.point}) {
+        const double radius = set_.points()[i].radius, distance = set_.nearest(i, 3 * radius).distance;
+        if (std::isfinite(distance)) beside[i] = std::max(beside[i], between.penetration + std::max(0.0, distance - radius));
+      }
+      continue;
+    }
     if (set_.at(low.point)) beside[low.point] = std::max(beside[low.point], between.penetration - low.overlap);
     if (set_.at(high.point)) beside[high.point] = std::max(beside[high.point], between.penetration - high.overlap);
   }

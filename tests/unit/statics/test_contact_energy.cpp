@@ -288,7 +288,7 @@ TEST_CASE("contact set: the shift keeps the force and takes over the penetration
   CHECK((set.at(0)->gradient - before).norm() < 1e-12 * before.norm());
   CHECK(set.deepest() == Approx(0).margin(1e-15));
   // Where the rod overlaps deeper beside the point, it rests that much farther off under the same force.
-  set.update_shifts({0.002, 0.003});
+  set.update_shifts({0.002, 0});
   CHECK(set.shifts()[0] == Approx(0.012));
   CHECK(set.shifts()[1] == 0);
   set.evaluate({Vec3(0, 0, 0.102), Vec3(0.1, 0, 0.2)});
@@ -298,6 +298,11 @@ TEST_CASE("contact set: the shift keeps the force and takes over the penetration
   set.update_shifts({0, 0});
   CHECK(set.shifts()[0] == 0);
   CHECK(!set.any());
+  // A point out of reach beside which the rod overlaps begins to carry a force.
+  set.update_shifts({0, 0.103});
+  set.evaluate({Vec3(0, 0, 0.2), Vec3(0.1, 0, 0.2)});
+  REQUIRE(set.at(1));
+  CHECK(set.at(1)->gradient.norm() == Approx(0.05 * set.law.at(0.003).slope));
 }
 
 TEST_CASE("contact energy: exactly above the side between two faces of one plane there is no ridge") {
