@@ -15,6 +15,7 @@ constexpr double other_hardness[] = {0.03, 0.004};     // a stalled run is tried
 constexpr double soft_tolerance = 2e-2;
 constexpr double hard_step = 0.02, loose_step = 2e-3;  // radii: what may be left of a step before the first update, later
 constexpr double slow = 0.4, hardening = 4;          // an overlap that falls less than this makes the law so much stiffer
+constexpr double one_more = 3;                       // times the overlap aimed at: one update takes that away
 constexpr int warm_iterations = 16;                  // a warm start that is worth it needs fewer
 constexpr int soft_iterations = 40, hard_iterations = 80, update_iterations = 60, descent_iterations = 300;
 
@@ -43,7 +44,7 @@ NewtonOutcome ContactSolver::stage(RodState& state, Start start, double toleranc
   options.stable_only = options_.stable_only;
   options.warm = start == Start::warm;
   options.descend = descend;
-  options.convex = start == Start::cold && !descend;
+  options.convex = !descend;
   const NewtonOutcome out = newton_.run(state, options, context);
   used_ += out.iterations;
   terms_.set_exact(false);
@@ -82,7 +83,8 @@ void ContactSolver::remove_overlap(RodState& state, ContactOutcome& out, const R
       tolerance = options_.tolerance;
     } else {
       if (out.updates >= contact_.most_updates) break;
-      tolerance = loose(loose_step);
+      // The update that will most likely be the last one is solved all the way at once.
+      tolerance = deepest <= one_more * contact_.overlap ? options_.tolerance : loose(loose_step);
       terms_.update_shifts(state, contact_.overlap);
       // Where the rod can roll about its contacts the law must be stiff enough for the updates to come to rest.
       if (out.updates > 1 && deepest > slow * before) terms_.harden(hardening);

@@ -96,6 +96,28 @@ TEST_CASE("contact families: preformed hoses, sheets three at a line, and the st
   }
 }
 
+TEST_CASE("contact families: what touches between two contact points that are both clear of it is carried too") {
+  // An obtuse ridge, and a ball under a thick hose: no edge that a sliding point would follow, no point within a radius.
+  for (const auto& [name, seed] : {std::pair{"clamps force contact", 777279}, {"clamps force contact", 777310}, {"sphere", 777493}})
+    for (const ContactFamily& family : contact_families(12)) {
+      if (family.name != name) continue;
+      std::mt19937_64 random(seed);
+      const ContactCase one = family.make(random, as_surroundings());
+      const Equilibrium eq = solve(one.problem);
+      RodProblem moved = one.problem;
+      moved.holds.back().frame.at += Vec3(0.002, 0.001, -0.001);
+      const Equilibrium again = solve(moved, {}, {}, &eq);
+      INFO(name << ", seed " << seed << ": " << eq.message << "; " << again.message);
+      REQUIRE(eq.ok());
+      REQUIRE(again.ok());
+      for (const Equilibrium* found : {&eq, &again}) {
+        CHECK(found->deepest_penetration <= largest_solved_overlap * one.problem.rod.largest_radius());
+        CHECK(!one.tunnelled(*found));
+      }
+      CHECK(unbalanced(moved, again).norm() < 1e-6 * moved.rod.mass() * 9.81);
+    }
+}
+
 TEST_CASE("contact families: harnesses of three rods at a free branch point") {
   for (const HarnessFamily& family : harness_families(60)) {
     int solved = 0, touching = 0, again = 0;
