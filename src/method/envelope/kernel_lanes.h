@@ -33,6 +33,8 @@ inline Floats size(Floats a) { return {_mm512_abs_ps(a.v)}; }
 inline Floats::Mask above(Floats a, Floats b) { return _mm512_cmp_ps_mask(a.v, b.v, _CMP_GT_OQ); }
 inline Floats choose(Floats::Mask m, Floats yes, Floats no) { return {_mm512_mask_mov_ps(no.v, m, yes.v)}; }
 inline std::uint32_t bits(Floats::Mask m) { return m; }
+/// The chosen lanes, side by side. Writes a whole register.
+inline void pack(float* to, Floats a, Floats::Mask m) { _mm512_storeu_ps(to, _mm512_maskz_compress_ps(m, a.v)); }
 
 #elif defined(__AVX2__) && defined(__FMA__)
 
@@ -98,6 +100,14 @@ inline std::uint32_t bits(Floats::Mask m) {
   return r;
 }
 
+#endif
+
+#if !defined(__AVX512F__)
+inline void pack(float* to, Floats a, Floats::Mask m) {
+  float lanes[Floats::width];
+  store(lanes, a);
+  for (std::uint32_t left = bits(m); left; left &= left - 1) *to++ = lanes[__builtin_ctz(left)];
+}
 #endif
 
 inline float largest(Floats a) {

@@ -102,19 +102,19 @@ inline Narrowed narrow(const PlaneArrays& planes, const Cube& cube, float slack,
   const float normal[3] = {planes.x[top], planes.y[top], planes.z[top]};
   const Floats bound = all(values[best] - slack);
   result.top = static_cast<int>(planes.number[top]);
-  // Copies never overtake the values that are still to be read.
+  // Copies, whole registers included, never overtake the values that are still to be read.
   int count = 0;
   for (int k = 0; k < planes.count; k += Floats::width) {
     const Floats most = fma(half, reach(planes, k, normal), load(to + k));
-    for (std::uint32_t found = bits(above(most, bound)); found; found &= found - 1) {
-      const int i = k + __builtin_ctz(found);
-      to[count] = planes.x[i];
-      to[count + room] = planes.y[i];
-      to[count + 2 * room] = planes.z[i];
-      to[count + 3 * room] = planes.offset[i];
-      to[count + 4 * room] = planes.number[i];
-      ++count;
-    }
+    const auto kept = above(most, bound);
+    const std::uint32_t found = bits(kept);
+    if (!found) continue;
+    pack(to + count, load(planes.x + k), kept);
+    pack(to + count + room, load(planes.y + k), kept);
+    pack(to + count + 2 * room, load(planes.z + k), kept);
+    pack(to + count + 3 * room, load(planes.offset + k), kept);
+    pack(to + count + 4 * room, load(planes.number + k), kept);
+    count += __builtin_popcount(found);
   }
   for (; count % 16; ++count) {
     for (int row = 0; row < plane_rows; ++row) to[count + row * room] = 0;
