@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 
+#include "base/huge_pages.h"
 #include "base/parallel.h"
 #include "method/envelope/cube_table.h"
 
@@ -21,6 +22,17 @@ std::uint64_t mixed_cells(const NodeBits& inside, int layer) {
 int case_at(const NodeBits& inside, int layer, int cell) {
   const std::uint64_t low = inside[layer] >> cell, high = inside[layer + 1] >> cell;
   return static_cast<int>((low & 3) | (low >> 6 & 12) | (high & 3) << 4 | (high >> 2 & 0xc0));
+}
+
+/// The old contents are of no use; memory that is large enough is.
+template <class T>
+void resize_fresh(std::vector<T>& list, std::size_t size) {
+  if (list.capacity() < size) {
+    list = {};
+    list.reserve(size);
+    prefer_huge_pages(list.data(), size * sizeof(T));
+  }
+  list.resize(size);
 }
 
 template <class Work>
@@ -161,8 +173,8 @@ class MarchingCubes::Writer {
 
 std::optional<Status> MarchingCubes::write(const BlockMap& map, const Field& field, const Vec3& origin, Mesh& mesh,
                                            const RunContext& context) const {
-  mesh.vertices.resize(vertices_);
-  mesh.triangles.resize(triangles_);
+  resize_fresh(mesh.vertices, vertices_);
+  resize_fresh(mesh.triangles, triangles_);
   in_chunks(field.size(), 32, context, [&](int first, int last) {
     Writer writer(*this, map, field, origin, mesh);
     for (int b = first; b < last; ++b) writer.write(b);

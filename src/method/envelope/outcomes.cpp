@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "base/error.h"
+#include "base/huge_pages.h"
 #include "base/number_text.h"
 #include "base/parallel.h"
 #include "geometry/mesh.h"
@@ -229,6 +230,7 @@ void EnvelopeOutcomes::grow(int capacity) {
   const std::unique_ptr<float[]> old = std::move(places_);
   capacity_ = (capacity + 15) / 16 * 16;
   places_.reset(new float[3 * stride() * count_.size()]);
+  prefer_huge_pages(places_.get(), bytes());
   for (int node = 0; old && node < nodes(); ++node)
     for (int axis = 0; axis < 3; ++axis)
       std::memcpy(row(node, axis), old.get() + (3 * static_cast<std::size_t>(node) + axis) * old_stride,

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "geometry/surroundings.h"
+#include "method/envelope/arc_points.h"
 #include "method/envelope/envelope.h"
 #include "unit/method/envelope_cases.h"
 
@@ -305,6 +306,58 @@ TEST_CASE("the curved centre line between vertices is contained", "[envelope]") 
     CHECK(arc_pieces(frames, 1.001 * envelope.sagitta) == pieces);
   }
   CHECK(before == Approx(capsule_volume(radius, 0.5 * units::pi * R)).epsilon(0.1));
+}
+
+TEST_CASE("outcomes of a batch", "[envelope]") {
+  RodProblem hose;
+  hose.rod = Rod::uniform(1.0, Section::round(0.02, 0, Material::from_poisson(5e6, 0.5, 1100)), 10);
+  const Frame start = Frame::looking({0, 0, 0}, {1, 0, 0}, {0, 0, 1});
+  hose.holds = {{0, start}, {1.0, start.moved({0.7, 0, 0})}};
+  hose.gravity = {0, 0, -9.81};
+  const SystemProblem nominal{{hose}, {}};
+  const Batch batch(nominal);
+  const auto fill = [&](int outcome, SystemProblem& problem) {
+    std::mt19937 random(outcome);
+    std::uniform_real_distribution<double> within(-0.02, 0.02);
+    problem.rods[0].holds[1].frame.at = nominal.rods[0].holds[1].frame.at + Vec3(within(random), within(random), within(random));
+  };
+  BatchResults results;
+  batch.solve(120, fill, results);
+  const int pieces = arc_pieces(results.frames(0, 0), 1e-4);
+  CHECK(pieces > 2);
+  EnvelopeOutcomes outcomes({{std::vector<double>(10, 0.01), pieces}});
+  int added = 0;
+  CHECK(outcomes.add(results, &added) == Status::solved);
+  CHECK(added == 120);
+  const Envelope envelope = EnvelopeBuilder().build(outcomes, voxel(2e-3));
+  CHECK(closed_and_manifold(envelope.mesh));
+  CHECK(envelope.sagitta < 2e-4);
+  // Points about the curved centre line, of all outcomes.
+  const InsideTest test(envelope.mesh);
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> share(0, 1);
+  int outside = 0;
+  for (int i = 0; i < 50000; ++i) {
+    const auto frames = results.frames(static_cast<int>(random() % 120), 0);
+    const std::size_t v = random() % 10;
+    const envelope::ElementArc arc(&frames[7 * v], &frames[7 * v + 7]);
+    const double s = share(random), step = 1e-4;
+    const Vec3 along = arc.at(std::min(1.0, s + step)) - arc.at(std::max(0.0, s - step));
+    const Frame section = Frame::looking(arc.at(s), along);
+    const double around = 2 * units::pi * share(random);
+    outside += !test.inside(section.at + 0.01 * (std::cos(around) * section.d1() + std::sin(around) * section.d2()));
+  }
+  CHECK(outside == 0);
+  // What is not solved is not added, and another number of rods is a mistake.
+  std::atomic<bool> cancel = true;
+  RunContext stopped;
+  stopped.cancel = &cancel;
+  BatchResults none;
+  batch.solve(8, fill, none, stopped);
+  CHECK(outcomes.add(none, &added) == Status::solved);
+  CHECK(added == 0);
+  EnvelopeOutcomes two({{{0.01}, 1}, {{0.01}, 1}});
+  CHECK_THROWS_WITH(two.add(results), "envelope: outcomes of 1 rods, expected 2");
 }
 
 TEST_CASE("an envelope can be stopped", "[envelope]") {
