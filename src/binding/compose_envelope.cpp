@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 
-#include "base/number_text.h"
 #include "base/parallel.h"
 #include "base/units.h"
 #include "binding/compose_tubes.h"
@@ -15,6 +15,12 @@
 
 namespace tendril {
 namespace {
+
+std::string rounded(double value, const char* unit) {
+  char buffer[64];
+  std::snprintf(buffer, sizeof buffer, "%.4g %s", value, unit);
+  return buffer;
+}
 
 constexpr double far = 1;  // m: what lies beyond is of no interest
 
@@ -109,7 +115,7 @@ void add_envelope(const std::shared_ptr<const TriangleSurface>& envelope, const 
     const bool named = !rows.empty() && rows.back().label == "tendril";
     rows.insert(named ? rows.end() - 1 : rows.end(), {label, value, alarm});
   };
-  add_row("envelope", number_text(1e3 * envelope->mesh().volume()) + " dm^3", false);
+  add_row("envelope", rounded(1e3 * envelope->mesh().volume(), "dm^3"), false);
   if (!obstacles.empty()) {
     ShellClearance clearance = shell_clearance(envelope->mesh(), obstacles);
     if (clearance.nearest < 0) {
@@ -117,9 +123,9 @@ void add_envelope(const std::shared_ptr<const TriangleSurface>& envelope, const 
     } else {
       const PlacedObstacle& nearest = obstacles[clearance.nearest];
       const bool overlaps = !clearance.overlaps.empty();
-      std::string text = overlaps ? "overlaps " + nearest.name : number_text(clearance.least / units::mm) + " mm";
+      std::string text = overlaps ? "overlaps " + nearest.name : rounded(clearance.least / units::mm, "mm");
       if (!overlaps && obstacles.size() > 1) text += " to " + nearest.name;
-      if (nearest.clearance > 0) text += " (required " + number_text(nearest.clearance / units::mm) + " mm)";
+      if (nearest.clearance > 0) text += " (required " + rounded(nearest.clearance / units::mm, "mm") + ")";
       add_row("envelope's clearance", text, overlaps || clearance.least < nearest.clearance);
     }
     if (coloured) {

@@ -12,11 +12,9 @@ constexpr std::size_t most_paints = 4096;
 
 float paint_of(const PictureSurface& surface, std::vector<Paint>& palette) {
   const float strength = surface.style == SurfaceStyle::solid ? 1.0f : 0.66f;
-  const Paint wanted{surface.colour, static_cast<float>(surface.share), strength};
+  const Paint wanted{surface.colour, static_cast<float>(surface.share), strength, surface.style == SurfaceStyle::veil};
   std::size_t i = 0;
-  while (i < palette.size() &&
-         !(palette[i].colour == wanted.colour && palette[i].share == wanted.share && palette[i].strength == strength))
-    ++i;
+  while (i < palette.size() && !(palette[i] == wanted)) ++i;
   if (i == palette.size() && i < most_paints) palette.push_back(wanted);
   return static_cast<float>(std::min(i, most_paints - 1)) / 65535.0f;
 }
@@ -107,7 +105,7 @@ PreparedScene prepare_scene(const Picture& picture, const Vec3& origin, const Ru
       scene.high = scene.high.cwiseMax(piece.high);
     }
   }
-  if (scene.palette.empty()) scene.palette.push_back({{}, 0.2f, 1});
+  if (scene.palette.empty()) scene.palette.push_back({{}, 0.2f, 1, false});
   return scene;
 }
 

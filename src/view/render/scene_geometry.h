@@ -13,6 +13,8 @@ namespace tendril::render {
 struct Paint {
   Rgb colour;
   float share, strength;
+  bool veil;  ///< transparent everywhere; otherwise whole up to the cut
+  bool operator==(const Paint&) const = default;
 };
 
 /// Surfaces before they are uploaded: made without a context, so that both can go on at once.

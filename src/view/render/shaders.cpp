@@ -296,12 +296,15 @@ void main() {
     vec3 own = surroundings(kept, 1.0, 0.0, share);
     // Close to the cut the part is still whole, and fades towards the tube.
     float before_cut = (cut_at - veil_at) * depth_pixels;
-    float whole = cut_at > 0.0 ? 1.0 - smoothstep(0.0, fade, before_cut) : 0.0;
+    bool veiled = texelFetch(palette, ivec2(int(kept.b * 65535.0 + 0.5), 1), 0).g > 0.5;  // not for the cut's sake
+    float whole = cut_at > 0.0 && !veiled ? 1.0 - smoothstep(0.0, fade, before_cut) : 0.0;
     float over_tube = mask > 0.75 ? 0.5 : 1.0;
-    share = clamp(share * over_tube * (0.65 + 0.9 * pow(1.0 - n.z, 2.0)), 0.0, 0.85);
+    bool valued = kept.a < 0.975, breaks = valued && kept.a > 0.925;
+    share = clamp(share * over_tube * ((valued ? 0.95 : 0.65) + 0.9 * pow(1.0 - n.z, 2.0)), 0.0, 0.85);
+    if (breaks) share = max(share, 0.85 * over_tube);
     share = mix(share, over_tube, whole);
     colour = mix(colour, own, share);
-    float line = max(edges_at(veil_edges, at, uv), jump(veil_depth, at, veil_at) * smoothstep(4.0, 16.0, before_cut));
+    float line = max(edges_at(veil_edges, at, uv), jump(veil_depth, at, veil_at) * (veiled ? 1.0 : smoothstep(4.0, 16.0, before_cut)));
     colour = mix(colour, ink, line * mix(0.28, 0.55, whole) * over_tube);
   }
   result = vec4(colour, mask);

@@ -152,6 +152,7 @@ ViewPainter::ViewPainter(const Picture& picture, const SceneGeometry& surroundin
     const float colour[4] = {paint.colour.r, paint.colour.g, paint.colour.b, paint.share};
     std::copy_n(colour, 4, &paints[4 * i]);
     paints[4 * (count + i)] = paint.strength;
+    paints[4 * (count + i) + 1] = paint.veil ? 1.0f : 0.0f;
   }
   palette_ = std::make_unique<Texture>(GL_RGBA32F, static_cast<int>(count), 2, GL_RGBA, GL_FLOAT, paints.data());
 
