@@ -17,7 +17,8 @@ std::shared_ptr<const TriangleSurface> box(const Vec3& half, const Vec3& at, int
 PlacedObstacle obstacle(const std::string& name, decltype(Obstacle::shape) shape, const Frame& pose, double clearance = 0) {
   PlacedObstacle placed;
   placed.name = name;
-  placed.body = {std::move(shape), pose, 0};
+  placed.body.shape = std::move(shape);
+  placed.body.pose = pose;
   placed.clearance = clearance;
   return placed;
 }

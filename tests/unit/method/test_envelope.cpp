@@ -252,7 +252,9 @@ TEST_CASE("an envelope is an obstacle like any mesh", "[envelope]") {
   places.rods = {{{0.01}, 1}};
   places.add({{0, 0, 0}, {0.1, 0, 0}});
   Surroundings surroundings;
-  surroundings.add({std::make_shared<const TriangleSurface>(built(places, 1e-3).mesh), {}, 0});
+  Obstacle obstacle;
+  obstacle.shape = std::make_shared<const TriangleSurface>(built(places, 1e-3).mesh);
+  surroundings.add(obstacle);
   CHECK(surroundings.closest({0.05, 0, 0.05}, 1).distance == Approx(0.04).epsilon(0.01));
 }
 
