@@ -40,8 +40,8 @@ InsideTest::InsideTest(const Mesh& mesh) : mesh_(mesh), box_(mesh.box()) {
     for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) {
       int low[2], high[2];
       for (int k = 0; k < 2; ++k) {
-        const auto [least, most] = std::minmax({mesh.vertices[mesh.triangles[t][0]][k + 1], mesh.vertices[mesh.triangles[t][1]][k + 1],
-                                                mesh.vertices[mesh.triangles[t][2]][k + 1]});
+        const auto at = [&](int corner) { return mesh.vertices[mesh.triangles[t][corner]][k + 1]; };
+        const auto [least, most] = std::minmax({at(0), at(1), at(2)});
         low[k] = std::clamp(static_cast<int>((least - box_.min()[k + 1]) / cell_[k]), 0, size_[k] - 1);
         high[k] = std::clamp(static_cast<int>((most - box_.min()[k + 1]) / cell_[k]), 0, size_[k] - 1);
       }

@@ -80,8 +80,10 @@ CubeCase case_of(int inside) {
     }
     if (!loop.empty()) cut(loop, 0, static_cast<int>(loop.size()) - 1, triangles);
   }
-  for (const std::array<int, 3>& triangle : triangles)
-    for (int k = 0; k < 3; ++k) result.edges[3 * result.triangles + k] = static_cast<std::uint8_t>(triangle[k]), result.triangles += k == 2;
+  for (const std::array<int, 3>& triangle : triangles) {
+    for (int k = 0; k < 3; ++k) result.edges[3 * result.triangles + k] = static_cast<std::uint8_t>(triangle[k]);
+    ++result.triangles;
+  }
   return result;
 }
 

@@ -130,7 +130,9 @@ class MarchingCubes::Writer {
   // The edges on the block's high sides belong to its neighbours there.
   void take_from(int block, int dx, int dy, int dz) {
     const BlockGrid& grid = map_.grid();
-    const std::size_t beside = map_.number(block) + dx + static_cast<std::size_t>(grid.size[0]) * (dy + static_cast<std::size_t>(grid.size[1]) * dz);
+    int at[3];
+    grid.place(map_.number(block), at);
+    const std::size_t beside = grid.number(at[0] + dx, at[1] + dy, at[2] + dz);
     const int other = map_.at(beside);
     if (other < 0) return;
     const int moved[3] = {dx, dy, dz};

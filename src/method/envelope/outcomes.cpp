@@ -116,7 +116,8 @@ Status EnvelopeOutcomes::add(const BatchResults& batch, int* added, const RunCon
   for (int k = 0; k < batch.size(); ++k)
     if (batch[k].ok()) solved.push_back(k);
   if (batch.size() > 0 && batch.rods() != static_cast<int>(rods_.size()))
-    throw UsageError("envelope: outcomes of " + std::to_string(batch.rods()) + " rods, expected " + std::to_string(rods_.size()));
+    throw UsageError("envelope: outcomes of " + std::to_string(batch.rods()) + " rods, expected " +
+                     std::to_string(rods_.size()));
   const int before = size_;
   const Status status = add_frames(
       static_cast<int>(solved.size()), [&](int outcome, int rod) { return batch.frames(solved[outcome], rod); }, context);

@@ -22,10 +22,10 @@ Vec3 score_direction(int k) {
 /// Raises the scores by what one node shows in one direction.
 void score(const PointArrays& places, int count, const Vec3& direction, double least, std::vector<float>& along,
            float* scores) {
-  const float dx = static_cast<float>(direction.x()), dy = static_cast<float>(direction.y()), dz = static_cast<float>(direction.z());
+  const Eigen::Vector3f d = direction.cast<float>();
   along.resize(count);
   double sum = 0, squares = 0;
-  for (int i = 0; i < count; ++i) along[i] = dx * places.x[i] + dy * places.y[i] + dz * places.z[i];
+  for (int i = 0; i < count; ++i) along[i] = d.x() * places.x[i] + d.y() * places.y[i] + d.z() * places.z[i];
   for (int i = 0; i < count; ++i) sum += along[i];
   const double mean = sum / count;
   for (int i = 0; i < count; ++i) squares += (along[i] - mean) * (along[i] - mean);
@@ -48,7 +48,8 @@ std::vector<float> outcome_scores(const EnvelopeOutcomes& outcomes, const RunCon
     std::vector<float> along;
     for (int node; (node = next++) < outcomes.nodes() && !context.stop();)
       for (int k = 0; k < score_pairs; ++k)
-        score(outcomes.places(node), outcomes.place_count(node), score_direction(k), 1e-4 * thinnest, along, found[worker].data());
+        score(outcomes.places(node), outcomes.place_count(node), score_direction(k), 1e-4 * thinnest, along,
+              found[worker].data());
   });
   for (int w = 1; w < workers; ++w)
     for (int i = 0; i < outcomes.size(); ++i) found[0][i] = std::max(found[0][i], found[w][i]);
