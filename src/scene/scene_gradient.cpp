@@ -51,6 +51,24 @@ SceneGradient SceneSensitivity::gradient(const SceneMeasure& measure, const std:
   return out;
 }
 
+std::vector<std::vector<Vec3>> SceneSensitivity::motion(const SceneParameter& parameter, const RunContext& context) {
+  std::vector<std::vector<Vec3>> moves;
+  for (const SolvedRod& rod : equilibrium_.rods) moves.emplace_back(rod.equilibrium.points.size(), Vec3::Zero());
+  for (int k = 0; k < static_cast<int>(equilibrium_.systems.size()); ++k) {
+    if (parameter.system >= 0 && parameter.system != k) continue;
+    const std::vector<int>& rods = equilibrium_.systems[k].rods;
+    const SystemSensitivity& own = system(k, context);
+    std::vector<Vec6> motion;
+    if (own.why_not().empty()) motion = own.motion(parameter.parameter);
+    for (int i = 0; i < static_cast<int>(rods.size()); ++i) {
+      std::vector<Vec3>& rod = moves[rods[i]];
+      for (std::size_t v = 0; v < rod.size(); ++v)
+        rod[v] = motion.empty() ? Vec3(Vec3::Constant(std::nan(""))) : Vec3(motion[own.network().first_node(i) + v].head<3>());
+    }
+  }
+  return moves;
+}
+
 SceneEquilibrium SceneSensitivity::solved_after(const SceneParameter& parameter, double by, const RunContext& context) const {
   SceneEquilibrium out = equilibrium_;
   out.rods = equilibrium_.rods;

@@ -57,6 +57,9 @@ std::vector<SceneParameter> parameters_of(const SceneEquilibrium& equilibrium);
 /// Every measure with a name. Others can be made by hand.
 std::vector<SceneMeasure> measures_of(const SceneEquilibrium& equilibrium);
 
+/// What engineers look at first: bend radius, tension, length and, near obstacles, clearance of every rod.
+std::vector<std::string> usual_measures(const SceneEquilibrium& equilibrium);
+
 /// The parameters of these names, groups resolved. Throws UsageError with the nearest name.
 std::vector<SceneParameter> named_parameters(const SceneEquilibrium& equilibrium, const std::vector<std::string>& names);
 /// The measure of this name. Throws UsageError with the nearest.
@@ -81,6 +84,11 @@ class SceneSensitivity {
   /// right to about six digits.
   SceneGradient gradient(const std::function<double(const SceneEquilibrium&)>& measure,
                          const std::vector<SceneParameter>& parameters, const RunContext& context = {}) const;
+
+  /// How far a unit of the parameter moves the vertices of every rod, by rod of the equilibrium: m per unit, world axes; zero
+  /// for rods that it does not reach, NaN where there are no derivatives. Clips that slide stay at their arc lengths. Throws as
+  /// gradient() does.
+  std::vector<std::vector<Vec3>> motion(const SceneParameter& parameter, const RunContext& context = {});
 
  private:
   SystemSensitivity& system(int k, const RunContext& context);

@@ -191,6 +191,15 @@ std::vector<SceneMeasure> measures_of(const SceneEquilibrium& eq) {
   return std::move(list.all);
 }
 
+std::vector<std::string> usual_measures(const SceneEquilibrium& eq) {
+  std::vector<std::string> names;
+  for (const SolvedRod& rod : eq.rods) {
+    for (const char* what : {".min_bend_radius", ".max_tension", ".length"}) names.push_back(rod.name + what);
+    if (eq.surroundings && eq.clearance(rod).obstacle >= 0) names.push_back(rod.name + ".clearance");
+  }
+  return names;
+}
+
 std::vector<SceneParameter> named_parameters(const SceneEquilibrium& eq, const std::vector<std::string>& names) {
   const std::vector<SceneParameter> all = parameters_of(eq);
   std::vector<SceneParameter> out;

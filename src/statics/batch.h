@@ -105,6 +105,8 @@ class Batch {
   /// itself for an outcome of another structure, or one so far off that first order means nothing.
   Start predicted(const SystemProblem& outcome) const;
 
+  const BatchLayout& layout() const { return layout_; }
+
   /// A kernel other than the fastest one: for tests and benchmarks.
   void use(const BatchKernel& kernel) { kernel_ = &kernel; }
   const BatchKernel& kernel() const { return *kernel_; }

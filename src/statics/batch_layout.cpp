@@ -342,6 +342,14 @@ std::vector<BatchLayout::Number> BatchLayout::numbers() const {
   return all;
 }
 
+std::vector<BatchLayout::SegmentPlace> BatchLayout::segment_places(int rod) const {
+  std::vector<SegmentPlace> places;
+  for (const Interval& interval : rods_[rod].intervals)
+    for (int i = 0; i < interval.count; ++i)
+      places.push_back({interval.stiffness, interval.rates < 0 ? -1 : interval.rates + i * BatchBlocks::rates});
+  return places;
+}
+
 std::vector<double> BatchLayout::arc_lengths(int rod, const double* parameters) const {
   std::vector<double> s = {0};
   for (const Interval& interval : rods_[rod].intervals) {

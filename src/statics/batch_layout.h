@@ -55,6 +55,12 @@ class BatchLayout {
   Vertex vertex(int rod, int index) const { return rods_[rod].vertices[index]; }
   int hold_vertex(int rod, int hold) const { return rods_[rod].hold_vertex[hold]; }
   const BatchNode& node(int index) const { return nodes_[index]; }
+  /// Where the numbers of a rod's segment stand among the parameters: its length, six flexibilities and weight (m, 1/(GA1, GA2,
+  /// EA, EI1, EI2, GJ), N/m in world axes), and its reference rates; -1: straight.
+  struct SegmentPlace {
+    int stiffness, rates;
+  };
+  std::vector<SegmentPlace> segment_places(int rod) const;
   /// Arc length of a rod's vertex in an outcome with these parameters, m.
   std::vector<double> arc_lengths(int rod, const double* parameters) const;
 

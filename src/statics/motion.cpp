@@ -42,9 +42,8 @@ Move farthest(const SystemEquilibrium& a, const SystemEquilibrium& b) {
   return most;
 }
 
-void check(const SystemProblem& problem, const std::vector<HeldPath>& paths, const MotionOptions& motion) {
+void check(const SystemProblem& problem, const std::vector<HeldPath>& paths) {
   if (paths.empty()) throw UsageError("motion: no hold moves; give at least one path");
-  if (motion.steps < 1) throw UsageError("motion: " + std::to_string(motion.steps) + " steps, expected at least 1");
   for (const HeldPath& path : paths) {
     const bool branch = path.branch >= 0 && path.branch < static_cast<int>(problem.branches.size());
     const bool rod = path.rod >= 0 && path.rod < static_cast<int>(problem.rods.size()) && path.hold >= 0 &&
@@ -55,15 +54,22 @@ void check(const SystemProblem& problem, const std::vector<HeldPath>& paths, con
 
 }  // namespace
 
-Motion move_holds(const SystemProblem& given, const std::vector<HeldPath>& paths, const MotionOptions& motion,
+Motion move_holds(const SystemProblem& problem, const std::vector<HeldPath>& paths, const MotionOptions& motion,
                   const SolveOptions& options, const RunContext& context, const SystemEquilibrium* from) {
-  check(given, paths, motion);
+  check(problem, paths);
+  const auto path = [&paths](double t, SystemProblem& moved) { place(moved, paths, t); };
+  return follow(problem, path, motion, options, context, from);
+}
+
+Motion follow(const SystemProblem& given, const ProblemPath& path, const MotionOptions& motion, const SolveOptions& options,
+              const RunContext& context, const SystemEquilibrium* from) {
+  if (motion.steps < 1) throw UsageError("motion: " + std::to_string(motion.steps) + " steps, expected at least 1");
   SolveOptions following = options;
   following.follow = true;
   following.error = false;
   SystemProblem problem = given;
   Motion out;
-  place(problem, paths, 0);
+  path(0, problem);
   SystemEquilibrium here = solve(problem, options, context, from);
   out.solves = 1;
   out.status = here.rods.front().status;
@@ -76,7 +82,7 @@ Motion move_holds(const SystemProblem& given, const std::vector<HeldPath>& paths
     const double stop = double(next) / motion.steps;
     const bool arrives = t + step >= stop - 1e-12;
     const double there = arrives ? stop : t + step;
-    place(problem, paths, there);
+    path(there, problem);
     SystemEquilibrium found = solve(problem, following, context, &here);
     ++out.solves;
     const Status status = found.rods.front().status;

@@ -44,8 +44,15 @@ struct Motion {
   bool ok() const { return status == Status::solved; }
 };
 
+/// Makes the problem at t = 0 ... 1 of one that it made before, or of the given one.
+using ProblemPath = std::function<void(double t, SystemProblem& problem)>;
+
 /// Each equilibrium starts from the one before; where that leads nowhere, the rods run down their energy from there. Steps
 /// adapt to how far the rods move. `from`: an equilibrium at t = 0, else one is found.
+Motion follow(const SystemProblem& problem, const ProblemPath& path, const MotionOptions& motion, const SolveOptions& options,
+              const RunContext& context, const SystemEquilibrium* from = nullptr);
+
+/// The same for holds that move.
 Motion move_holds(const SystemProblem& problem, const std::vector<HeldPath>& paths, const MotionOptions& motion,
                   const SolveOptions& options, const RunContext& context, const SystemEquilibrium* from = nullptr);
 

@@ -76,6 +76,8 @@ ParameterEffect effect_of(const Parameter& parameter, const RodNetwork& network)
 
 /// The problem with the parameter grown by `by` (in its unit): what effect_of() is the first order of. Throws as that does.
 SystemProblem changed(const SystemProblem& problem, const Parameter& parameter, double by);
+/// The same in place.
+void change(SystemProblem& problem, const Parameter& parameter, double by);
 
 /// True when the stiffnesses are those of the diameters and one material.
 bool is_round(const Section& section);

@@ -94,18 +94,17 @@ void change_branch(SystemProblem& problem, const Parameter& p, double by) {
 
 }  // namespace
 
-SystemProblem changed(const SystemProblem& problem, const Parameter& p, double by) {
-  SystemProblem out = problem;
+void change(SystemProblem& out, const Parameter& p, double by) {
   if (p.component < 0 || p.component > 2)
     throw UsageError("sensitivity: got component " + std::to_string(p.component) + ", expected one of 3");
   const Vec3 shift = by * Vec3::Unit(p.component);
   if (p.kind == Kind::gravity) {
     for (RodProblem& rod : out.rods) rod.gravity += shift;
-    return out;
+    return;
   }
   if (of_branch(p.kind)) {
     change_branch(out, p, by);
-    return out;
+    return;
   }
   RodProblem& rod = entry(out.rods, p.rod, "rod");
   switch (p.kind) {
@@ -125,6 +124,11 @@ SystemProblem changed(const SystemProblem& problem, const Parameter& p, double b
       for (std::size_t k = 0; k < rod.rod.parts.size(); ++k)
         if (p.part < 0 || p.part == static_cast<int>(k)) change_section(rod.rod.parts[k].section, p.kind, by);
   }
+}
+
+SystemProblem changed(const SystemProblem& problem, const Parameter& p, double by) {
+  SystemProblem out = problem;
+  change(out, p, by);
   return out;
 }
 

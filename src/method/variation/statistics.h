@@ -7,6 +7,7 @@
 // independent outcomes and says so. Outcomes that failed have no value: a share's interval holds whatever they are.
 #pragma once
 
+#include <functional>
 #include <limits>
 #include <string>
 #include <vector>
@@ -42,7 +43,7 @@ class Sample {
  public:
   /// `replicates`: how many independent sets the outcomes belong to in turn; 1: all independent.
   Sample(const Outcomes& outcomes, int measure, int replicates = 1);
-  /// `missing`: how many more were drawn but have no value.
+  /// Values in the order of outcomes, NaN for those without one; `missing`: how many more were drawn but have no value.
   explicit Sample(std::vector<double> values, int replicates = 1, int missing = 0);
 
   int size() const { return static_cast<int>(sorted_.size()); }
@@ -60,9 +61,9 @@ class Sample {
  private:
   template <class Statistic>
   bool by_replicates(const Statistic& statistic, int least, Estimate& out) const;
-  Estimate share(double below, double above) const;
+  Estimate share(const std::function<int(const std::vector<double>&)>& count) const;
 
-  std::vector<double> values_, sorted_;
+  std::vector<double> sorted_;
   std::vector<std::vector<double>> replicates_;  ///< sorted; empty: independent outcomes
   int missing_ = 0;
   bool independent_ = true;

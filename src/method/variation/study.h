@@ -5,8 +5,8 @@
 // clear of them, and so does the way from the nominal equilibrium, that is its equilibrium; else it is solved again with contact.
 //
 // Jumps. An outcome whose rods are farther from the first-order prediction than a quarter of the predicted move plus 2 % of the
-// length is followed from the nominal design in small steps: it counts as jumped where the rods snap on the way, else what the
-// way leads to is its equilibrium.
+// length, and from the second-order one (by way of the equilibrium half way) too, is followed from the nominal design in small
+// steps: it counts as jumped where the rods snap on the way, else what the way leads to is its equilibrium.
 //
 // The same study, seed and outcome give the same bits whatever the number of threads, and whichever part of the outcomes is run.
 #pragma once
