@@ -44,7 +44,7 @@ NewtonOutcome ContactSolver::stage(RodState& state, Start start, double toleranc
   options.stable_only = options_.stable_only;
   options.warm = start == Start::warm;
   options.descend = descend;
-  options.convex = !descend;
+  options.convex = (start == Start::cold || !another_try_) && !descend;
   const NewtonOutcome out = newton_.run(state, options, context);
   used_ += out.iterations;
   terms_.set_exact(false);
@@ -108,7 +108,9 @@ std::optional<RodState> ContactSolver::led_around(const RodState& state) {
 
 ContactOutcome ContactSolver::run(RodState& state, const SystemEquilibrium* from, const RunContext& context) {
   used_ = 0;
+  another_try_ = false;
   ContactOutcome out = attempt(state, from, hard, context);
+  another_try_ = true;
   for (const double other : other_hardness) {
     if (out.newton.status != Status::stalled || over(out)) break;
     RodState trial = clear_start();

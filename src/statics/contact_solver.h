@@ -81,6 +81,7 @@ class ContactSolver {
   ContactNetwork terms_;
   Newton newton_;
   int used_ = 0;       ///< factorisations so far
+  bool another_try_ = false;  ///< then warm runs meet an indefinite matrix by a shift, not by leaving out the wrench
   BlockSystem scratch_;
 };
 

@@ -41,8 +41,8 @@ struct NewtonOptions {
   bool stable_only = true;
   bool warm = false;       ///< start from the actual wrenches, not from none
   bool continued = false;  ///< start from the wrenches that the run before ended with
-  /// Far from the solution: a matrix that the predicted wrench makes indefinite is replaced by the one without any, which
-  /// is positive, before a shift is tried. Steps that guards cut short leave wrenches that balance nothing.
+  /// A matrix that the predicted wrench makes indefinite is replaced by the one without any, which is positive, before a
+  /// shift is tried. Steps that guards cut short leave wrenches that balance nothing.
   bool convex = false;
   bool descend = false;    ///< energy descent (Armijo) instead of mixed stress
 };
