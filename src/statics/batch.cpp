@@ -88,7 +88,8 @@ std::string BatchResults::message(int outcome) const {
 Batch::Batch(const SystemProblem& nominal, const SolveOptions& options, const RunContext& context)
     : Batch(nominal, nominal_start(nominal, options, context), options) {}
 
-Batch::Batch(const SystemProblem& nominal, const Start& start, const SolveOptions& options)
+Batch::Batch(const SystemProblem& nominal, const Start& start, const SolveOptions& options,
+             std::span<const SystemProblem> varied)
     : nominal_(nominal),
       options_(options),
       layout_(checked(nominal, options)),
@@ -96,10 +97,22 @@ Batch::Batch(const SystemProblem& nominal, const Start& start, const SolveOption
       parameters_(layout_.parameter_count()),
       frames_(7 * layout_.node_count()),
       wrenches_(BatchBlocks::wrench * layout_.segment_count()) {
-  begin(start);
+  begin(start, varied);
 }
 
-void Batch::begin(const Start& start) {
+/// Empty: all of them, or not known.
+std::vector<char> Batch::varying_numbers(std::span<const SystemProblem> varied) const {
+  std::vector<char> varies;
+  std::vector<double> numbers(parameters_.size());
+  for (const SystemProblem& problem : varied) {
+    if (!layout_.read(problem, numbers.data())) return {};
+    varies.resize(numbers.size(), 0);
+    for (std::size_t i = 0; i < numbers.size(); ++i) varies[i] = varies[i] || numbers[i] != parameters_[i];
+  }
+  return varies;
+}
+
+void Batch::begin(const Start& start, std::span<const SystemProblem> varied) {
   if (start.vertices.size() != nominal_.rods.size() || start.branches.size() != nominal_.branches.size())
     throw UsageError("batch: the nominal equilibrium has " + std::to_string(start.vertices.size()) + " rods and " +
                      std::to_string(start.branches.size()) + " branch points, expected " +
@@ -126,7 +139,7 @@ void Batch::begin(const Start& start) {
     equilibrium_.rods.push_back(rod);
   }
   equilibrium_.branches = start.branches;
-  predictor_ = BatchPredictor(layout_, *kernel_, parameters_, frames_, wrenches_);
+  predictor_ = BatchPredictor(layout_, *kernel_, parameters_, frames_, wrenches_, varying_numbers(varied));
 }
 
 Batch::Start Batch::predicted(const SystemProblem& outcome) const {

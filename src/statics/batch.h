@@ -89,8 +89,11 @@ class Batch {
   /// Solves the nominal problem. Throws UsageError for a problem that batches do not know (see why_not) or whose nominal
   /// equilibrium is not found.
   Batch(const SystemProblem& nominal, const SolveOptions& options = {}, const RunContext& context = {});
-  /// Starts from an equilibrium that is known.
-  Batch(const SystemProblem& nominal, const Start& start, const SolveOptions& options = {});
+  /// Starts from an equilibrium that is known. `varied`: problems that, one or the other, differ from the nominal one in
+  /// every number that outcomes will differ in: only those get derivatives, which saves most of the set-up of large systems.
+  /// Empty: all numbers.
+  Batch(const SystemProblem& nominal, const Start& start, const SolveOptions& options = {},
+        std::span<const SystemProblem> varied = {});
 
   /// Empty, or why this problem is not one for batches: contact, dead moments, clips that slide, closed loops.
   static std::string why_not(const SystemProblem& problem, const SolveOptions& options = {}) {
@@ -113,7 +116,8 @@ class Batch {
 
  private:
   friend class BatchWorker;
-  void begin(const Start& start);
+  void begin(const Start& start, std::span<const SystemProblem> varied);
+  std::vector<char> varying_numbers(std::span<const SystemProblem> varied) const;
 
   SystemProblem nominal_;
   SolveOptions options_;

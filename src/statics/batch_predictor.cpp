@@ -32,7 +32,8 @@ void turn(double* q, const double* theta) {
 }  // namespace
 
 BatchPredictor::BatchPredictor(const BatchLayout& layout, const BatchKernel& kernel, const std::vector<double>& parameters,
-                               const std::vector<double>& frames, const std::vector<double>& wrenches)
+                               const std::vector<double>& frames, const std::vector<double>& wrenches,
+                               const std::vector<char>& varies)
     : nodes_(layout.node_count()),
       rows_(6 * layout.node_count() + static_cast<int>(wrenches.size())),
       length_(layout.structure().length),
@@ -41,6 +42,9 @@ BatchPredictor::BatchPredictor(const BatchLayout& layout, const BatchKernel& ker
       wrenches_(wrenches) {
   std::vector<double> amounts;
   for (const BatchLayout::Number& number : layout.numbers()) {
+    const int width = number.axis < 0 ? 1 : 4;  // a number or a quaternion
+    if (!varies.empty() && std::none_of(&varies[number.offset], &varies[number.offset] + width, [](char v) { return v; }))
+      continue;
     columns_.push_back({number.offset, number.axis});
     amounts.push_back(tiny * number.scale);
   }

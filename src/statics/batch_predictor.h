@@ -12,9 +12,11 @@ class BatchPredictor {
  public:
   BatchPredictor() = default;
 
-  /// From the nominal equilibrium: numbers, node frames, wrenches.
+  /// From the nominal equilibrium: numbers, node frames, wrenches. `varies`: which of the numbers do; empty: all of them. A
+  /// change of another number is not seen.
   BatchPredictor(const BatchLayout& layout, const BatchKernel& kernel, const std::vector<double>& parameters,
-                 const std::vector<double>& frames, const std::vector<double>& wrenches);
+                 const std::vector<double>& frames, const std::vector<double>& wrenches,
+                 const std::vector<char>& varies = {});
 
   /// Frames and wrenches for an outcome's numbers. `scratch` is kept from call to call. Returns the largest rotation (rad)
   /// or move over the length; where that is more than `too_far` the nominal state stays.

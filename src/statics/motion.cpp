@@ -79,6 +79,11 @@ Motion follow(const SystemProblem& given, const ProblemPath& path, const MotionO
   double t = 0, step = 1.0 / motion.steps;
   int next = 1;  // of the asked-for solutions
   while (next <= motion.steps) {
+    if (out.solves >= motion.most_solves) {
+      out.status = Status::stalled;
+      out.message = "no end of it in " + std::to_string(out.solves) + " solutions, at t = " + number_text(t);
+      return out;
+    }
     const double stop = double(next) / motion.steps;
     const bool arrives = t + step >= stop - 1e-12;
     const double there = arrives ? stop : t + step;

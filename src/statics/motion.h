@@ -19,6 +19,7 @@ struct MotionOptions {
   int steps = 20;               ///< solutions that are kept, evenly spaced in t
   double largest_move = 0.02;   ///< of the length: a vertex that moves farther in one step makes the step smaller
   double smallest_step = 1e-4;  ///< of t; a larger move over this is a snap-through
+  int most_solves = 1'000'000;  ///< then it has stalled
 };
 
 /// The rods left their equilibrium and came to rest in another one.

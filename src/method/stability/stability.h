@@ -40,18 +40,21 @@ struct Result {
   double seconds = 0;
   std::vector<Row> measures;
   std::vector<Column> variables;
-  Eigen::MatrixXd matrix;     ///< measures x variables, unit of the measure over that of the variable; NaN in rows that are not ok
+  Eigen::MatrixXd matrix;  ///< measures x variables, unit of the measure over that of the variable; NaN in rows that are not ok
   Eigen::MatrixXd scaled;     ///< the same times the tolerance, unit of the measure; zero where none was given
 
-  /// How far a unit of each variable moves the vertices of each rod, m per unit of the variable, world axes: [variable][rod][vertex].
-  /// Rods of the equilibrium in its order; zero where a variable does not reach. Empty where the rods have no derivatives.
+  /// How far a unit of each variable moves the vertices of each rod, m per unit of the variable, world axes:
+  /// [variable][rod][vertex]. Rods of the equilibrium in its order; zero where a variable does not reach. Empty where the rods
+  /// have no derivatives.
   std::vector<std::vector<std::vector<Vec3>>> moves;
 
   /// At each vertex of a rod: the largest of |move| * tolerance over the variables that have one (m); without tolerances the
   /// norm over all variables of |move|. What colours a rod.
   std::vector<double> colour(int rod) const;
 
-  std::string unit(int measure, int variable) const { return SceneGradient::unit_of(measures[measure].unit, variables[variable].unit); }
+  std::string unit(int measure, int variable) const {
+    return SceneGradient::unit_of(measures[measure].unit, variables[variable].unit);
+  }
 };
 
 /// Throws UsageError for unknown names, with the nearest, and for an equilibrium without derivatives (staggered elements, clips

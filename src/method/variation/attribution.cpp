@@ -58,8 +58,9 @@ Eigen::MatrixXd gradient_of(const std::vector<double>& nominal, const Eigen::Vec
   if (measures.has_functions())
     for (int r = 0; r < 2 * columns; ++r)
       if (answers.status[r] == OutcomeStatus::solved)
-        measures.call(solver.equilibrium({&values[static_cast<std::size_t>(r) * columns], static_cast<std::size_t>(columns)}, answers, r),
-                      {&answers.measured[static_cast<std::size_t>(r) * count], static_cast<std::size_t>(count)});
+        measures.call(
+            solver.equilibrium({&values[static_cast<std::size_t>(r) * columns], static_cast<std::size_t>(columns)}, answers, r),
+            {&answers.measured[static_cast<std::size_t>(r) * count], static_cast<std::size_t>(count)});
   Eigen::MatrixXd gradient(count, columns);
   for (int c = 0; c < columns; ++c)
     for (int m = 0; m < count; ++m) {
@@ -159,7 +160,8 @@ Contributions Attribution::finish() {
       if (!std::isnan(share)) return share;
     return -1.0;
   };
-  std::stable_sort(out_.all.begin(), out_.all.end(), [&](const Contributor& a, const Contributor& b) { return rank(a) > rank(b); });
+  std::stable_sort(out_.all.begin(), out_.all.end(),
+                   [&](const Contributor& a, const Contributor& b) { return rank(a) > rank(b); });
   return std::move(out_);
 }
 

@@ -8,7 +8,7 @@
 
 namespace tendril::variation {
 
-/// Positions of all vertices of one system's rods, one after the other.
+/// Positions of the vertices of one system's rods that are compared, one after the other.
 using Positions = std::vector<Vec3>;
 
 class BranchCheck {

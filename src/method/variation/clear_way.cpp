@@ -15,11 +15,13 @@ constexpr int most_points = 2000;
 
 }  // namespace
 
-ClearWay::ClearWay(const SystemProblem& problem, const std::vector<Equilibrium>& nominal, const ContactField& field) : field_(field) {
+ClearWay::ClearWay(const SystemProblem& problem, const std::vector<Equilibrium>& nominal, const ContactField& field)
+    : field_(field) {
   for (std::size_t k = 0; k < nominal.size(); ++k) {
     const Rod& design = problem.rods[k].rod;
     const double radius = design.largest_radius();
-    const int count = std::clamp(static_cast<int>(std::ceil(design.length / std::max(radius, 1e-6 * design.length))), 8, most_points);
+    const int count =
+        std::clamp(static_cast<int>(std::ceil(design.length / std::max(radius, 1e-6 * design.length))), 8, most_points);
     reach_.push_back(radius + margin * 0.5 * design.length / count);
     std::vector<Point>& points = points_.emplace_back();
     for (int i = 0; i <= count; ++i) {

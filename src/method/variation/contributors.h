@@ -8,8 +8,8 @@
 
 namespace tendril::variation {
 
-/// What one variable, or one correlated group, contributes to a measure's variance. Shares are of the whole variance; NaN where they
-/// are not known.
+/// What one variable, or one correlated group, contributes to a measure's variance. Shares are of the whole variance; NaN where
+/// they are not known.
 struct Contributor {
   std::string name;         ///< "hose.length"; of a group: its variables with " + " between
   std::vector<int> columns; ///< components, by their numbers in Outcomes::variables()
@@ -17,7 +17,8 @@ struct Contributor {
   double linear = std::numeric_limits<double>::quiet_NaN();
   /// By linear regression over the outcomes: the share of the variance that its components explain.
   double regression = std::numeric_limits<double>::quiet_NaN();
-  /// Sobol' indices (Jansen's estimators; Comput. Phys. Commun. 117, 1999): what it explains by itself, and with all its interactions.
+  /// Sobol' indices (Jansen's estimators; Comput. Phys. Commun. 117, 1999): what it explains by itself, and with all its
+  /// interactions.
   Estimate first, total;
 };
 
@@ -25,7 +26,7 @@ struct Contributor {
 struct Contributions {
   std::vector<Contributor> all;
   double linear_deviation = std::numeric_limits<double>::quiet_NaN();  ///< sqrt(g' C g): what the tolerances make to first order
-  double explained = std::numeric_limits<double>::quiet_NaN();         ///< share of the variance that the regression explains (R^2)
+  double explained = std::numeric_limits<double>::quiet_NaN();  ///< share of the variance that the regression explains (R^2)
   std::string message;  ///< why the gradient is not known; else empty
 };
 

@@ -55,7 +55,8 @@ Copula::Copula(const Eigen::MatrixXd& given, int count, const std::string& who) 
     }
   const double smallest = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(matrix, Eigen::EigenvaluesOnly).eigenvalues()[0];
   if (smallest < -rounding * count)
-    throw UsageError(who + ": no numbers can be correlated like this: the matrix is not positive semi-definite (smallest eigenvalue " +
+    throw UsageError(who +
+                     ": no numbers can be correlated like this: the matrix is not positive semi-definite (smallest eigenvalue " +
                      number_text(smallest) + ")");
   root_ = root_of(matrix);
 }

@@ -83,11 +83,13 @@ double value_on_rod(const Measure& m, double at, const Rod& design, const Equili
 
 double value_on_branch(const Measure& m, const SystemOutcome& outcome) {
   if (m.what == What::branch_position) {
-    const Vec3 at = outcome.equilibrium ? outcome.equilibrium->branches[m.index].at : outcome.results->branch(outcome.row, m.index).at;
+    const Vec3 at =
+        outcome.equilibrium ? outcome.equilibrium->branches[m.index].at : outcome.results->branch(outcome.row, m.index).at;
     return at.dot(m.along);
   }
   BatchResults::Support support;
-  if (outcome.equilibrium) support = {outcome.equilibrium->branch_supports[m.index].force, outcome.equilibrium->branch_supports[m.index].moment};
+  if (outcome.equilibrium)
+    support = {outcome.equilibrium->branch_supports[m.index].force, outcome.equilibrium->branch_supports[m.index].moment};
   else support = outcome.results->branch_support(outcome.row, m.index);
   return (m.what == What::branch_force ? support.force : support.moment).dot(m.along);
 }
@@ -108,7 +110,8 @@ Measures::Measures(const SceneEquilibrium& nominal, const Options& options) : no
   }
 }
 
-void Measures::add_clearance(const SceneEquilibrium& nominal, const std::string& name, const std::string& rod, const std::string& to) {
+void Measures::add_clearance(const SceneEquilibrium& nominal, const std::string& name, const std::string& rod,
+                             const std::string& to) {
   if (!nominal.surroundings) throw UsageError("method.variation: measure '" + name + "': the scene has no obstacles");
   Entry entry;
   entry.kind = Entry::Kind::clearance;
@@ -186,7 +189,8 @@ bool Measures::reads(int system) const {
 
 bool Measures::needs_equilibrium(int system) const {
   return std::any_of(entries_.begin(), entries_.end(), [&](const Entry& e) {
-    return e.kind == Entry::Kind::function || (e.kind == Entry::Kind::built_in && e.measure.system == system && is_energy(e.measure.measure.what));
+    return e.kind == Entry::Kind::function ||
+           (e.kind == Entry::Kind::built_in && e.measure.system == system && is_energy(e.measure.measure.what));
   });
 }
 
@@ -207,7 +211,11 @@ void Measures::read(int system, const SystemOutcome& outcome, std::span<double> 
       continue;
     }
     switch (m.what) {
-      case What::branch_position: case What::branch_force: case What::branch_moment: values[k] = value_on_branch(m, outcome); break;
+      case What::branch_position:
+      case What::branch_force:
+      case What::branch_moment:
+        values[k] = value_on_branch(m, outcome);
+        break;
       case What::reaction_force: values[k] = outcome.rod(m.rod, false).reactions[m.index].force.dot(m.along); break;
       case What::reaction_moment: values[k] = outcome.rod(m.rod, false).reactions[m.index].moment.dot(m.along); break;
       default: {

@@ -41,7 +41,7 @@ struct Variable {
   std::optional<Spread> spread;
   std::optional<double> sigma;      ///< standard deviation, of each component
   /// The inverse distribution: how far the variable is from its nominal value where a share (0 ... 1) of all outcomes lies
-  /// below. Called in the order of outcomes on the thread that runs the study.
+  /// below. Called in the order of outcomes on the thread that runs the study; while it is set up too, for the variance.
   std::function<double(double share)> inverse;
 
   /// Instead of a distribution: the number itself, or the frame (world axes; of a section joined to a branch point: in that

@@ -25,7 +25,8 @@ std::string cell(const std::string& text) {
 }
 
 bool same_columns(const std::vector<Column>& a, const std::vector<Column>& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const Column& x, const Column& y) { return x.name == y.name && x.unit == y.unit; });
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const Column& x, const Column& y) { return x.name == y.name && x.unit == y.unit; });
 }
 
 }  // namespace
@@ -62,13 +63,13 @@ const std::string& Outcomes::message(int outcome) const {
 void Outcomes::set(int outcome, OutcomeStatus status, std::span<const double> variables, std::span<const double> measures,
                    std::span<const double> effects, std::string message) {
   if (outcome < first() || outcome >= last())
-    throw UsageError("method.variation: got outcome " + std::to_string(outcome) + ", expected " + std::to_string(first()) + " to " +
-                     std::to_string(last() - 1));
+    throw UsageError("method.variation: got outcome " + std::to_string(outcome) + ", expected " + std::to_string(first()) +
+                     " to " + std::to_string(last() - 1));
   const auto put = [&](std::vector<double>& table, std::span<const double> row, const char* what) {
     const std::size_t width = table.size() / status_.size();
     if (row.size() != width)
-      throw UsageError("method.variation: outcome " + std::to_string(outcome) + " has " + std::to_string(row.size()) + " " + what +
-                       ", expected " + std::to_string(width));
+      throw UsageError("method.variation: outcome " + std::to_string(outcome) + " has " + std::to_string(row.size()) + " " +
+                       what + ", expected " + std::to_string(width));
     std::copy(row.begin(), row.end(), table.begin() + (outcome - first_) * static_cast<std::ptrdiff_t>(width));
   };
   put(values_, variables, "variables");
@@ -94,7 +95,9 @@ Outcomes Outcomes::merged(std::span<const Outcomes> parts) {
       throw UsageError("method.variation: these outcomes belong to different studies: their columns differ");
     if (part->first() != all.last())
       throw UsageError("method.variation: outcomes " + std::to_string(part->first()) + " and on " +
-                       (part->first() < all.last() ? "are there twice" : "do not follow those before, which end at " + std::to_string(all.last() - 1)));
+                       (part->first() < all.last()
+                            ? "are there twice"
+                            : "do not follow those before, which end at " + std::to_string(all.last() - 1)));
     const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
     append(all.status_, part->status_);
     append(all.values_, part->values_);
@@ -124,7 +127,8 @@ std::vector<double> Outcomes::column(int measure) const {
 std::string Outcomes::csv() const {
   std::string text = "outcome,status";
   for (const std::vector<Column>* columns : {&variables_, &measures_})
-    for (const Column& column : *columns) text += "," + cell(column.unit.empty() ? column.name : column.name + " [" + column.unit + "]");
+    for (const Column& column : *columns)
+      text += "," + cell(column.unit.empty() ? column.name : column.name + " [" + column.unit + "]");
   text += ",message\n";
   for (int k = first(); k < last(); ++k) {
     text += std::to_string(k) + "," + name_of(status(k));

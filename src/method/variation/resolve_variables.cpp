@@ -21,7 +21,8 @@ std::vector<SceneParameter> parameters_named(const SceneEquilibrium& nominal, co
   } catch (const UsageError& error) {
     const std::string text = error.what(), begin = "unknown parameter";
     const std::size_t at = text.find(begin);
-    throw UsageError("method.variation: " + (at == std::string::npos ? text : "unknown variable" + text.substr(at + begin.size())));
+    throw UsageError("method.variation: " +
+                     (at == std::string::npos ? text : "unknown variable" + text.substr(at + begin.size())));
   }
 }
 
@@ -48,8 +49,9 @@ double section_number(const RodProblem& rod, const Parameter& p, const Variable&
       default: break;  // factors
     }
     if (variable.relative && (own != other || (!std::isnan(value) && own != value)))
-      refuse(variable, "has more than one nominal value, so it cannot vary by a share of it; name its parts or directions one by one, "
-                       "or vary the factor 'stiffness' or 'density'");
+      refuse(variable,
+             "has more than one nominal value, so it cannot vary by a share of it; name its parts or directions one by one, "
+             "or vary the factor 'stiffness' or 'density'");
     if (std::isnan(value)) value = own;
   }
   return value;
@@ -78,7 +80,14 @@ double nominal_value(const SystemProblem& problem, const Parameter& p, const Var
 /// Numbers that must stay above zero.
 bool positive(Kind kind) {
   switch (kind) {
-    case Kind::length: case Kind::EA: case Kind::GA: case Kind::GA1: case Kind::GA2: case Kind::EI: case Kind::EI1: case Kind::EI2:
+    case Kind::length:
+    case Kind::EA:
+    case Kind::GA:
+    case Kind::GA1:
+    case Kind::GA2:
+    case Kind::EI:
+    case Kind::EI1:
+    case Kind::EI2:
     case Kind::GJ: case Kind::stiffness: case Kind::young: case Kind::outer: return true;
     default: return false;
   }
@@ -94,9 +103,13 @@ void check_width(const Variable& variable, const char* what, double value, doubl
 ComponentSpread spread_of(const Variable& variable, double tolerance, bool given, double nominal, bool zone, bool uniform) {
   ComponentSpread spread;
   spread.name = variable.name;
-  spread.kind = variable.spread ? *variable.spread : variable.inverse ? Spread::function : zone ? Spread::uniform : Spread::normal;
+  spread.kind = variable.spread    ? *variable.spread
+                : variable.inverse ? Spread::function
+                : zone             ? Spread::uniform
+                                   : Spread::normal;
   if (spread.kind == Spread::function && !variable.inverse) refuse(variable, "has no inverse distribution to draw from");
-  if (spread.kind != Spread::function && variable.inverse) refuse(variable, "has a spread and an inverse distribution; give one of them");
+  if (spread.kind != Spread::function && variable.inverse)
+    refuse(variable, "has a spread and an inverse distribution; give one of them");
   if (zone && (spread.kind == Spread::triangular || spread.kind == Spread::function))
     refuse(variable, "varies within a ball or cone, whose spread is 'uniform' or 'normal'");
   if (variable.sigma && spread.kind != Spread::normal) refuse(variable, "has a sigma, which only the normal spread has");
@@ -123,12 +136,14 @@ void check_once(const Variable& variable, bool numbers) {
   if (variable.cone) check_width(variable, "cone", *variable.cone, 3.141592653589793);
   if (variable.twist) check_width(variable, "twist", *variable.twist);
   for (int c = 0; variable.box && c < 3; ++c) check_width(variable, "box", (*variable.box)[c]);
-  if (variable.relative && !numbers) refuse(variable, "is a frame or a table; only a number varies by a share of its nominal value");
+  if (variable.relative && !numbers)
+    refuse(variable, "is a frame or a table; only a number varies by a share of its nominal value");
 }
 
 void check_table(const Variable& variable, std::size_t size, int outcomes) {
   if (static_cast<int>(size) != outcomes)
-    refuse(variable, "has a table of " + std::to_string(size) + " entries, expected one for each of " + std::to_string(outcomes) + " outcomes");
+    refuse(variable, "has a table of " + std::to_string(size) + " entries, expected one for each of " + std::to_string(outcomes) +
+                         " outcomes");
 }
 
 std::string sections_of_branch(const std::vector<SceneParameter>& all, const std::string& name) {
@@ -143,7 +158,8 @@ std::string sections_of_branch(const std::vector<SceneParameter>& all, const std
 }  // namespace
 
 Variables::Variables(const SceneEquilibrium& nominal, const Options& options) {
-  if (options.vary.empty()) throw UsageError("method.variation: nothing varies; give vary = {[\"hose.length\"] = {tolerance = 5*mm}, ...}");
+  if (options.vary.empty())
+    throw UsageError("method.variation: nothing varies; give vary = {[\"hose.length\"] = {tolerance = 5*mm}, ...}");
   for (int v = 0; v < static_cast<int>(options.vary.size()); ++v) {
     const Variable& variable = options.vary[v];
     for (int other = 0; other < v; ++other)
@@ -158,8 +174,8 @@ Variables::Variables(const SceneEquilibrium& nominal, const Options& options) {
   for (int a = 0; a < dimensions(); ++a)
     for (int b = 0; b < a; ++b)
       if (columns_[a].name == columns_[b].name)
-        throw UsageError("method.variation: '" + columns_[a].name + "' varies twice: by '" + options.vary[columns_[b].variable].name +
-                         "' and by '" + options.vary[columns_[a].variable].name + "'");
+        throw UsageError("method.variation: '" + columns_[a].name + "' varies twice: by '" +
+                         options.vary[columns_[b].variable].name + "' and by '" + options.vary[columns_[a].variable].name + "'");
   add_groups(options);
   add_contributors(options);
 }
@@ -180,7 +196,8 @@ void Variables::add_numbers(const SceneEquilibrium& nominal, const Options& opti
                            "'); name one of them, or for a frame give ball, box, cone or twist");
   if (!variable.numbers.empty()) {
     check_table(variable, variable.numbers.size(), options.outcomes);
-    if (found.size() > 1) refuse(variable, "is " + std::to_string(found.size()) + " numbers, but its table has one for each outcome");
+    if (found.size() > 1)
+      refuse(variable, "is " + std::to_string(found.size()) + " numbers, but its table has one for each outcome");
     for (const double number : variable.numbers)
       if (!std::isfinite(number)) refuse(variable, "has a table with a number that is not finite");
   }
@@ -191,7 +208,8 @@ void Variables::add_numbers(const SceneEquilibrium& nominal, const Options& opti
     Piece piece;
     piece.number = p;
     if (variable.numbers.empty())
-      piece.spread = spread_of(variable, variable.tolerance.value_or(0), variable.tolerance.has_value(), value, false, options.uniform);
+      piece.spread =
+          spread_of(variable, variable.tolerance.value_or(0), variable.tolerance.has_value(), value, false, options.uniform);
     if (positive(p.parameter.kind) && variable.numbers.empty() && piece.spread.kind != Spread::function &&
         std::max(piece.spread.tolerance, 3 * piece.spread.sigma) >= value)
       refuse(variable, "varies by " + number_text(std::max(piece.spread.tolerance, 3 * piece.spread.sigma)) + " about " +
@@ -203,11 +221,14 @@ void Variables::add_numbers(const SceneEquilibrium& nominal, const Options& opti
 
 void Variables::add_gravity_cone(const SceneEquilibrium& nominal, const Options& options, int v) {
   const Variable& variable = options.vary[v];
-  if (variable.ball || variable.box || variable.twist) refuse(variable, "is a direction: it varies within a cone, or its numbers by a tolerance");
+  if (variable.ball || variable.box || variable.twist)
+    refuse(variable, "is a direction: it varies within a cone, or its numbers by a tolerance");
   const auto heavy = [](const SolvedSystem& system) {
-    return std::any_of(system.problem.rods.begin(), system.problem.rods.end(), [](const RodProblem& r) { return !r.gravity.isZero(0); });
+    return std::any_of(system.problem.rods.begin(), system.problem.rods.end(),
+                       [](const RodProblem& r) { return !r.gravity.isZero(0); });
   };
-  if (std::none_of(nominal.systems.begin(), nominal.systems.end(), heavy)) refuse(variable, "is zero, so it has no direction that varies");
+  if (std::none_of(nominal.systems.begin(), nominal.systems.end(), heavy))
+    refuse(variable, "is zero, so it has no direction that varies");
   Piece piece;
   piece.kind = Piece::Kind::gravity_cone;
   piece.place.system = -1;
@@ -282,7 +303,8 @@ void Variables::add_table_frames(const SceneEquilibrium& nominal, const Variable
   tables_.resize(columns_.size());
   const int first = pieces_.back().column;
   for (const Frame& frame : variable.frames) {
-    if (!all_finite(frame.at) || !all_finite(frame.rotation.coeffs())) refuse(variable, "has a table with a frame that is not finite");
+    if (!all_finite(frame.at) || !all_finite(frame.rotation.coeffs()))
+      refuse(variable, "has a table with a frame that is not finite");
     const Vec3 shift = frame.at - from.at, turn = log_rotation(frame.rotation * from.rotation.conjugate());
     for (int c = 0; c < 3; ++c) {
       tables_[first + c].push_back(shift[c]);
@@ -296,14 +318,18 @@ void Variables::add_groups(const Options& options) {
   for (std::size_t g = 0; g < options.groups.size(); ++g) {
     const Group& group = options.groups[g];
     const std::string who = "method.variation: group " + std::to_string(g + 1);
-    if (group.variables.size() < 2) throw UsageError(who + ": got " + std::to_string(group.variables.size()) + " variables, expected at least 2");
+    if (group.variables.size() < 2)
+      throw UsageError(who + ": got " + std::to_string(group.variables.size()) + " variables, expected at least 2");
     std::vector<int> members;
     for (const std::string& name : group.variables) {
       int v = 0;
       while (v < static_cast<int>(options.vary.size()) && options.vary[v].name != name) ++v;
-      if (v == static_cast<int>(options.vary.size())) throw UsageError(who + ": '" + name + "' is not among the variables that vary");
-      if (group_of[v] >= 0) throw UsageError(who + ": '" + name + "' belongs to group " + std::to_string(group_of[v] + 1) + " already");
-      if (!tables_[first_column_[v]].empty()) throw UsageError(who + ": '" + name + "' comes from a table, so it cannot be correlated");
+      if (v == static_cast<int>(options.vary.size()))
+        throw UsageError(who + ": '" + name + "' is not among the variables that vary");
+      if (group_of[v] >= 0)
+        throw UsageError(who + ": '" + name + "' belongs to group " + std::to_string(group_of[v] + 1) + " already");
+      if (!tables_[first_column_[v]].empty())
+        throw UsageError(who + ": '" + name + "' comes from a table, so it cannot be correlated");
       group_of[v] = static_cast<int>(g);
       members.push_back(v);
     }
@@ -311,7 +337,8 @@ void Variables::add_groups(const Options& options) {
     for (const int v : members)
       if (width(v) != width(members.front()))
         throw UsageError(who + ": '" + options.vary[v].name + "' has " + std::to_string(width(v)) + " components, '" +
-                         options.vary[members.front()].name + "' has " + std::to_string(width(members.front())) + "; expected as many");
+                         options.vary[members.front()].name + "' has " + std::to_string(width(members.front())) +
+                         "; expected as many");
     Correlated correlated{{}, Copula(group.correlation, static_cast<int>(members.size()), who)};
     for (int c = 0; c < width(members.front()); ++c) {
       correlated.columns.emplace_back();

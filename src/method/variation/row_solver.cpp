@@ -10,7 +10,8 @@ namespace tendril::variation {
 namespace {
 
 constexpr int rows_at_once = 8;  // that a thread takes
-constexpr int batch_portion = 1024, near_obstacles = 256, alone = 16;
+constexpr int batch_portion = 1024, near_obstacles = 256, alone = 16, least_portion = 64;
+constexpr std::size_t most_bytes = 16 << 20;  // of a portion's frames
 
 int severity(OutcomeStatus status) {
   switch (status) {
@@ -46,13 +47,16 @@ RowSolver::RowSolver(const SceneEquilibrium& nominal, const Variables& variables
 }
 
 int RowSolver::portion(const RunContext& context) const {
-  int rows = batch_portion;
+  std::size_t bytes = 1;
+  for (const auto& system : systems_) bytes += system->bytes_of_row();
+  int rows = std::clamp(static_cast<int>(most_bytes / bytes), least_portion, batch_portion);
   for (const auto& system : systems_)
     if (system->one_by_one()) rows = std::min(rows, alone * thread_count(context.threads));
   return nominal_.surroundings ? std::min(rows, near_obstacles) : rows;
 }
 
-void RowSolver::solve(std::span<const double> values, int rows, bool whole, RowAnswers& answers, const RunContext& context) const {
+void RowSolver::solve(std::span<const double> values, int rows, bool whole, RowAnswers& answers,
+                      const RunContext& context) const {
   answers.systems.resize(systems_.size());
   answers.status.assign(rows, OutcomeStatus::solved);
   answers.measured.assign(static_cast<std::size_t>(rows) * measures_.count(), std::nan(""));
@@ -99,8 +103,8 @@ std::string RowSolver::message(const RowAnswers& answers, int row) const {
   for (std::size_t k = 0; k < systems_.size(); ++k) {
     const SystemAnswers& own = answers.systems[k];
     if (own.messages[row].empty() || own.status[row] != answers.status[row]) continue;
-    text += (text.empty() ? "" : "; ") + (systems_.size() > 1 ? nominal_.rods[nominal_.systems[k].rods.front()].name + ": " : "") +
-            own.messages[row];
+    text += (text.empty() ? "" : "; ") +
+            (systems_.size() > 1 ? nominal_.rods[nominal_.systems[k].rods.front()].name + ": " : "") + own.messages[row];
   }
   return text;
 }

@@ -157,7 +157,8 @@ Estimate Sample::quantile(double share) const {
   if (sorted_.empty()) return out;
   out.value = quantile_of(sorted_, share);
   const int least = static_cast<int>(std::ceil(least_beside / std::min(share, 1 - share)));
-  if (!independent_ && by_replicates([&](const std::vector<double>& own) { return quantile_of(own, share); }, least, out)) return out;
+  if (!independent_ && by_replicates([&](const std::vector<double>& own) { return quantile_of(own, share); }, least, out))
+    return out;
   const int low = binomial_quantile(tail, size(), share), high = binomial_quantile(1 - tail, size(), share) + 1;
   out.low = low >= 1 ? sorted_[low - 1] : -infinity;
   out.high = high <= size() ? sorted_[high - 1] : infinity;
@@ -185,7 +186,9 @@ Estimate Sample::share(const std::function<int(const std::vector<double>&)>& cou
   if (size() > 0) out.value = static_cast<double>(inside) / size();
   const int replicates = static_cast<int>(replicates_.size());
   const bool many = std::min(inside, size() - inside) >= least_beside * replicates && missing_ == 0;
-  const auto own_share = [&](const std::vector<double>& own) { return static_cast<double>(count(own)) / static_cast<double>(own.size()); };
+  const auto own_share = [&](const std::vector<double>& own) {
+    return static_cast<double>(count(own)) / static_cast<double>(own.size());
+  };
   if (!independent_ && many && by_replicates(own_share, 1, out)) {
     out.low = std::max(0.0, out.low);
     out.high = std::min(1.0, out.high);

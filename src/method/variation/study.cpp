@@ -52,7 +52,8 @@ struct Study::Parts {
         variables(nominal, options),
         measures(nominal, options),
         solver(nominal, variables, measures, options.solve, context),
-        sampler(options.sampling, seed, variables.dimensions() * (options.effects > 0 ? 2 : 1), options.outcomes, options.replicates) {
+        sampler(options.sampling, seed, variables.dimensions() * (options.effects > 0 ? 2 : 1), options.outcomes,
+                options.replicates) {
     for (const Variables::Contributor& contributor : variables.contributors()) {
       if (contributor.drawn) drawn.push_back(static_cast<int>(contributors.size()));
       contributors.push_back(contributor.name);
@@ -145,7 +146,8 @@ void Study::Parts::pass(int outcome, int row, const std::vector<double>& values,
   on_outcome({outcome, status, out.variables_of(outcome), out.measures_of(outcome), out.effects_of(outcome), message, frames});
 }
 
-void Study::Parts::solve_portion(int first, int last, const OnOutcome& on_outcome, Outcomes& out, const RunContext& context) const {
+void Study::Parts::solve_portion(int first, int last, const OnOutcome& on_outcome, Outcomes& out,
+                                 const RunContext& context) const {
   std::vector<double> values;
   int rows = 0;
   for (int k = first; k < last; ++k) {

@@ -41,8 +41,9 @@ using OnOutcome = std::function<void(const OutcomeView&)>;
 /// A study with everything checked and resolved, and the nominal equilibrium found.
 class Study {
  public:
-  /// Throws UsageError for names that do not exist (with the nearest), variables without anything that varies, contradictory ones,
-  /// correlations that cannot be, tables of the wrong length, and a scene whose nominal equilibrium is not found or not stable.
+  /// Throws UsageError for names that do not exist (with the nearest), variables without anything that varies, contradictory
+  /// ones, correlations that cannot be, tables of the wrong length, and a scene whose nominal equilibrium is not found or not
+  /// stable.
   Study(const Scene& scene, Options options, const RunContext& context = {});
   Study(Study&&) noexcept;
   ~Study();

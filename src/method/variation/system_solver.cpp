@@ -17,7 +17,8 @@ constexpr double small_share = 1e-3;     // of a deviation, for a batch's deriva
 constexpr double finite_share = 2e-2;    // ... for those from equilibria solved anew
 constexpr double same_equilibrium = 1e-4;  // of the length
 constexpr int rows_at_once = 8;          // that a thread takes
-constexpr int following_steps = 4;
+constexpr int following_steps = 4, most_following_solves = 100, most_following_iterations = 200;
+constexpr int compared_intervals = 12;   // of a rod, between the vertices whose places are compared
 
 SystemProblem without_surroundings(SystemProblem problem) {
   for (RodProblem& rod : problem.rods) rod.surroundings = nullptr;
@@ -36,8 +37,8 @@ Batch::Start start_of(const SystemEquilibrium& equilibrium) {
 
 std::string description_of(const SnapThrough& snap, const std::vector<std::string>& rods) {
   char text[160];
-  std::snprintf(text, sizeof text, "snaps at %.3g %% of the way from the nominal design: by %.4g mm at s = %.4g m of '", 100 * snap.t,
-                1e3 * snap.move, snap.s);
+  std::snprintf(text, sizeof text, "snaps at %.3g %% of the way from the nominal design: by %.4g mm at s = %.4g m of '",
+                100 * snap.t, 1e3 * snap.move, snap.s);
   return text + rods[snap.rod] + "'";
 }
 
@@ -94,25 +95,42 @@ SystemSolver::SystemSolver(const SceneEquilibrium& nominal, int system, const Va
     rod_names_.push_back(nominal.rods[solved.rods[i]].name);
     shares_.push_back(nominal_.rods[i].s);
     for (double& share : shares_.back()) share /= nominal_.rods[i].s.back();
+    const int last = static_cast<int>(shares_.back().size()) - 1, intervals = std::min(last, compared_intervals);
+    compared_.emplace_back();
+    for (int k = 0; k <= intervals; ++k) compared_.back().push_back(k * last / intervals);
   }
   for (const int b : solved.branches) nominal_.branch_supports.push_back(nominal.branches[b].support);
   if (!varies_) return;
-  begin_batch(context);
+  begin_batch(deviations);
   begin_check(deviations, context);
 }
 
-void SystemSolver::begin_batch(const RunContext&) {
+/// One problem for each column that varies.
+std::vector<SystemProblem> SystemSolver::varied_problems(std::span<const double> deviations) const {
+  std::vector<SystemProblem> problems;
+  std::vector<double> row;
+  for (const Column& column : variables_.columns()) row.push_back(column.nominal);
+  for (std::size_t c = 0; c < row.size(); ++c) {
+    if (!(deviations[c] > 0)) continue;
+    row[c] += small_share * deviations[c];
+    make_problem(row, 1, problems.emplace_back());
+    row[c] = variables_.columns()[c].nominal;
+  }
+  return problems;
+}
+
+void SystemSolver::begin_batch(std::span<const double> deviations) {
   if (const ContactField* field = problem_.rods.front().surroundings) way_.emplace(problem_, nominal_.rods, *field);
   if (way_ && !way_->nominal_is_clear()) return;
   if (!Batch::why_not(free_problem_, options_).empty()) return;
   try {
-    batch_.emplace(free_problem_, start_of(nominal_), options_);
+    batch_.emplace(free_problem_, start_of(nominal_), options_, varied_problems(deviations));
   } catch (const UsageError&) {
     batch_.reset();  // on another mesh, or too flat an equilibrium for it: one by one
   }
 }
 
-/// How far each column moves the vertices.
+/// How far each column moves the vertices that are compared.
 void SystemSolver::begin_check(std::span<const double> deviations, const RunContext& context) {
   const int columns = variables_.dimensions();
   std::vector<double> values(columns), lengths;
@@ -120,7 +138,7 @@ void SystemSolver::begin_check(std::span<const double> deviations, const RunCont
   Positions nominal;
   read_positions(nominal_, nominal);
   for (std::size_t k = 0; k < nominal_.rods.size(); ++k)
-    lengths.insert(lengths.end(), shares_[k].size(), problem_.rods[k].rod.length);
+    lengths.insert(lengths.end(), compared_[k].size(), problem_.rods[k].rod.length);
   std::vector<Positions> by_unit(columns);
   std::atomic<int> next = 0;
   const auto work = [&](int) {
@@ -134,8 +152,8 @@ void SystemSolver::begin_check(std::span<const double> deviations, const RunCont
       Positions moved;
       if (batch_) {
         const Batch::Start start = batch_->predicted(problem);
-        for (const std::vector<Frame>& rod : start.vertices)
-          for (const Frame& frame : rod) moved.push_back(frame.at);
+        for (std::size_t k = 0; k < start.vertices.size(); ++k)
+          for (const int vertex : compared_[k]) moved.push_back(start.vertices[k][vertex].at);
       } else {
         try {
           put_surroundings(problem);
@@ -155,6 +173,12 @@ void SystemSolver::begin_check(std::span<const double> deviations, const RunCont
   check_ = BranchCheck(std::move(nominal), std::move(values), std::move(by_unit), std::move(lengths));
 }
 
+std::size_t SystemSolver::bytes_of_row() const {
+  std::size_t frames = nominal_.branches.size();
+  for (const std::vector<double>& rod : shares_) frames += rod.size();
+  return 7 * sizeof(double) * frames;
+}
+
 void SystemSolver::make_problem(std::span<const double> row, double share, SystemProblem& problem) const {
   problem = free_problem_;
   variables_.apply(number_, row, share, problem);
@@ -169,9 +193,9 @@ void SystemSolver::read_positions(const SystemEquilibrium& equilibrium, Position
   out.clear();
   for (std::size_t k = 0; k < equilibrium.rods.size(); ++k) {
     const Equilibrium& rod = equilibrium.rods[k];
-    if (rod.points.size() == shares_[k].size()) out.insert(out.end(), rod.points.begin(), rod.points.end());
-    else
-      for (const double share : shares_[k]) out.push_back(rod.frame_at(share * rod.s.back()).at);
+    const bool same_mesh = rod.points.size() == shares_[k].size();
+    for (const int vertex : compared_[k])
+      out.push_back(same_mesh ? rod.points[vertex] : rod.frame_at(shares_[k][vertex] * rod.s.back()).at);
   }
 }
 
@@ -180,13 +204,14 @@ void SystemSolver::read_positions(const Row& row, Positions& out) const {
   out.clear();
   for (int k = 0; k < row.results->rods(); ++k) {
     const std::span<const double> frames = row.results->frames(row.index, k);
-    for (std::size_t i = 0; i < frames.size(); i += 7) out.push_back({frames[i], frames[i + 1], frames[i + 2]});
+    for (const int vertex : compared_[k]) out.push_back(Vec3(frames[7 * vertex], frames[7 * vertex + 1], frames[7 * vertex + 2]));
   }
 }
 
 // ---------------------------------------------------------------- outcomes
 
-void SystemSolver::solve(std::span<const double> values, int rows, bool whole, SystemAnswers& answers, const RunContext& context) const {
+void SystemSolver::solve(std::span<const double> values, int rows, bool whole, SystemAnswers& answers,
+                         const RunContext& context) const {
   const std::size_t columns = variables_.dimensions();
   const auto row_of = [&](int k) { return values.subspan(k * columns, columns); };
   answers.status.assign(rows, OutcomeStatus::unsolved);
@@ -295,9 +320,12 @@ void SystemSolver::follow_from_nominal(Row& row) const {
   };
   MotionOptions motion;
   motion.steps = following_steps;
+  motion.most_solves = most_following_solves;
+  SolveOptions options = options_;
+  options.max_iterations = std::min(options.max_iterations, most_following_iterations);
   Motion way;
   try {
-    way = follow(problem_, path, motion, options_, row.context, &nominal_);
+    way = follow(problem_, path, motion, options, row.context, &nominal_);
   } catch (const UsageError& error) {
     way.message = error.what();
   }

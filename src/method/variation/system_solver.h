@@ -38,13 +38,15 @@ class SystemSolver {
   bool varies() const { return varies_; }
   const Batch* batch() const { return batch_ ? &*batch_ : nullptr; }
   const SystemEquilibrium& nominal() const { return nominal_; }
+  std::size_t bytes_of_row() const;  ///< that the batch's answer to one row takes
 
   /// The problem of one outcome, or of a share of the way there, in place of an earlier one; without surroundings.
   void make_problem(std::span<const double> row, double share, SystemProblem& problem) const;
 
  private:
   struct Row;  ///< one outcome at work in one thread
-  void begin_batch(const RunContext& context);
+  std::vector<SystemProblem> varied_problems(std::span<const double> deviations) const;
+  void begin_batch(std::span<const double> deviations);
   void begin_check(std::span<const double> deviations, const RunContext& context);
   void settle(Row& row) const;
   void settle_batched(Row& row) const;
@@ -70,6 +72,7 @@ class SystemSolver {
   std::optional<ClearWay> way_;  ///< with surroundings
   std::vector<std::string> rod_names_;
   std::vector<std::vector<double>> shares_;  ///< nominal vertices' arc lengths over the length, by rod
+  std::vector<std::vector<int>> compared_;   ///< some vertices of each rod: those that tell one branch from another
   BranchCheck check_;
 };
 

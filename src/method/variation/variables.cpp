@@ -81,7 +81,9 @@ void Variables::move(const Piece& piece, const double* by, double share, SystemP
   switch (piece.kind) {
     case Piece::Kind::shift: frame.at[piece.axis] += share * by[0]; break;
     case Piece::Kind::ball: frame.at += share * Vec3(by[0], by[1], by[2]); break;
-    case Piece::Kind::cone: frame.rotation = (frame.rotation * exp_rotation({share * by[0], share * by[1], 0})).normalized(); break;
+    case Piece::Kind::cone:
+      frame.rotation = (frame.rotation * exp_rotation({share * by[0], share * by[1], 0})).normalized();
+      break;
     case Piece::Kind::twist: frame.rotation = (frame.rotation * exp_rotation({0, 0, share * by[0]})).normalized(); break;
     default:
       frame.at += share * Vec3(by[0], by[1], by[2]);
@@ -149,7 +151,8 @@ void Variables::add_group_covariance(Eigen::MatrixXd& covariance) const {
   values.rowwise() -= values.colwise().mean().eval();
   for (const int a : columns)
     for (const int b : columns) {
-      const double correlation = values.col(a).dot(values.col(b)) / std::sqrt(values.col(a).squaredNorm() * values.col(b).squaredNorm());
+      const double correlation =
+          values.col(a).dot(values.col(b)) / std::sqrt(values.col(a).squaredNorm() * values.col(b).squaredNorm());
       if (a != b && std::isfinite(correlation))
         covariance(a, b) = correlation * std::sqrt(covariance(a, a) * covariance(b, b));
     }

@@ -67,7 +67,9 @@ class Variables {
     Place place;
     int axis = 0;            ///< of a shift
 
-    int columns() const { return kind == Kind::table_frame ? 6 : kind == Kind::ball ? 3 : kind == Kind::cone || kind == Kind::gravity_cone ? 2 : 1; }
+    int columns() const {
+      return kind == Kind::table_frame ? 6 : kind == Kind::ball ? 3 : kind == Kind::cone || kind == Kind::gravity_cone ? 2 : 1;
+    }
   };
   struct Correlated {
     std::vector<std::vector<int>> columns;  ///< by component: the members' columns

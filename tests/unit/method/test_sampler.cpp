@@ -51,7 +51,8 @@ TEST_CASE("sobol: the first two dimensions make (0, m, 2)-nets, plain and scramb
       for (const std::uint32_t first : {0u, 3u << m}) CHECK(is_net(m, 0, {0, 1}, first, scrambled));
 }
 
-TEST_CASE("sobol: the first four dimensions make (3, m, 4)-nets: t is the sum of the polynomials' degrees less one", "[variation]") {
+TEST_CASE("sobol: the first four dimensions make (3, m, 4)-nets: t is the sum of the polynomials' degrees less one",
+          "[variation]") {
   // Degrees 1, 2, 3: t = 0 + 1 + 2.
   for (int m = 4; m <= 8; ++m) {
     CHECK(is_net(m, 3, {0, 1, 2, 3}, 0, false));
@@ -169,7 +170,8 @@ TEST_CASE("sampler: a shuffle is a permutation, and each place is as likely", "[
 
 TEST_CASE("sampler: what cannot be drawn is refused", "[variation]") {
   CHECK_THROWS_WITH(Sampler(Sampling::sobol, 1, 65, 100, 1), Catch::Contains("at most 64 dimensions, got 65"));
-  CHECK_THROWS_WITH(Sampler(Sampling::latin, 1, 2, 100, 51), Catch::Contains("got 51 replicates of 100 outcomes, expected 1 to 50"));
+  CHECK_THROWS_WITH(Sampler(Sampling::latin, 1, 2, 100, 51),
+                    Catch::Contains("got 51 replicates of 100 outcomes, expected 1 to 50"));
   CHECK_THROWS_WITH(Sampler(Sampling::sobol, 1, 2, 100, 0), Catch::Contains("got 0 replicates"));
   CHECK_NOTHROW(Sampler(Sampling::random, 1, 200, 1, 0));
 }

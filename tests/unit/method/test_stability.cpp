@@ -66,7 +66,8 @@ TEST_CASE("stability: defaults, several systems, and what is refused", "[stabili
   CHECK(result.variables.size() == 3 + 4 + 6 * 5);  // gravity, lengths, frames of five clamps
   int other = 0, own = 0;
   for (std::size_t c = 0; c < result.variables.size(); ++c) {
-    const bool alone = result.variables[c].name.rfind("alone", 0) == 0, gravity = result.variables[c].name.rfind("gravity", 0) == 0;
+    const bool alone = result.variables[c].name.rfind("alone", 0) == 0,
+               gravity = result.variables[c].name.rfind("gravity", 0) == 0;
     if (alone) CHECK(result.matrix.col(static_cast<Eigen::Index>(c)).head(9).isZero(0));
     if (alone) CHECK(result.moves[c][0].back().isZero(0));
     if (!alone && !gravity) CHECK(result.matrix.col(static_cast<Eigen::Index>(c)).tail(3).isZero(0));
@@ -77,9 +78,11 @@ TEST_CASE("stability: defaults, several systems, and what is refused", "[stabili
   CHECK(other == 24);
   CHECK(result.colour(3).size() == 11);
   using Catch::Contains;
-  CHECK_THROWS_WITH(stability::run(eq, {{{"a.lenght", 0}}, {}}), Contains("method.stability: unknown parameter 'a.lenght'; did you mean 'a.length'?"));
+  CHECK_THROWS_WITH(stability::run(eq, {{{"a.lenght", 0}}, {}}),
+                    Contains("method.stability: unknown parameter 'a.lenght'; did you mean 'a.length'?"));
   CHECK_THROWS_WITH(stability::run(eq, {{}, {"a.sag"}}), Contains("method.stability: unknown measure 'a.sag'"));
-  CHECK_THROWS_WITH(stability::run(eq, {{{"a.from", 0.1}}, {}}), Contains("'a.from' is numbers in 'm' and in 'rad', which no tolerance fits"));
+  CHECK_THROWS_WITH(stability::run(eq, {{{"a.from", 0.1}}, {}}),
+                    Contains("'a.from' is numbers in 'm' and in 'rad', which no tolerance fits"));
   CHECK_THROWS_WITH(stability::run(eq, {{{"a.length", -1}}, {}}), Contains("'a.length' has the tolerance -1"));
   CHECK_THROWS_WITH(stability::run(eq, {{{"a.length", 0}, {"a.length", 0}}, {}}), Contains("'a.length' is given twice"));
   SceneEquilibrium broken = eq;

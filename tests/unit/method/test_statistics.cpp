@@ -185,7 +185,8 @@ TEST_CASE("spreads: shapes and variances", "[variation]") {
   spread.kind = Spread::function;
   const std::function<double(double)> broken = [](double) { return NAN; };
   spread.inverse = &broken;
-  CHECK_THROWS_WITH(spread.at(0.25), Catch::Contains("'hose.length': the inverse distribution gave nan at 0.25, expected a finite number"));
+  CHECK_THROWS_WITH(spread.at(0.25),
+                    Catch::Contains("'hose.length': the inverse distribution gave nan at 0.25, expected a finite number"));
 }
 
 TEST_CASE("copula: correlated as asked, each number still uniform", "[variation]") {
@@ -223,7 +224,8 @@ TEST_CASE("copula: matrices that are no correlations are refused", "[variation]"
     }
     return m;
   };
-  CHECK_THROWS_WITH(Copula(matrix({1, 0, 0, 1}), 3, "group 1"), Catch::Contains("group 1: the correlation is 2x2, expected 3x3 or one number"));
+  CHECK_THROWS_WITH(Copula(matrix({1, 0, 0, 1}), 3, "group 1"),
+                    Catch::Contains("group 1: the correlation is 2x2, expected 3x3 or one number"));
   CHECK_THROWS_WITH(Copula(matrix({1, 1.5, 1.5, 1}), 2, "g"), Catch::Contains("got a correlation of 1.5 in row 1, column 2"));
   CHECK_THROWS_WITH(Copula(matrix({1, NAN, NAN, 1}), 2, "g"), Catch::Contains("got a correlation of nan"));
   CHECK_THROWS_WITH(Copula(matrix({1, 0.5, 0.4, 1}), 2, "g"), Catch::Contains("not symmetric in row 1, column 2"));

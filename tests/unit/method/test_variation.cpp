@@ -23,7 +23,8 @@ bool holds(const variation::Estimate& e, double truth) { return e.low <= truth &
 Options small_tolerances(int outcomes) {
   Options options;
   options.outcomes = outcomes;
-  options.vary = {number("hose.length", 2e-4), ball("hose.to", 2e-4), number("hose.section.stiffness", 1e-3), cone("hose.from", 1e-3)};
+  options.vary = {number("hose.length", 2e-4), ball("hose.to", 2e-4), number("hose.section.stiffness", 1e-3),
+                  cone("hose.from", 1e-3)};
   options.vary[1].spread = variation::Spread::normal;
   options.measures = {measure("hose.min_bend_radius"), measure("hose.from.force.z"), measure("hose.energy.bend"),
                       function("sag", [](const SceneEquilibrium& e) { return e.rods[0].equilibrium.frame_at(0.5).at.z(); })};
@@ -33,7 +34,8 @@ Options small_tolerances(int outcomes) {
 
 }  // namespace
 
-TEST_CASE("variation: small tolerances give the variance of the exact gradient, within the interval, for 40 seeds", "[variation]") {
+TEST_CASE("variation: small tolerances give the variance of the exact gradient, within the interval, for 40 seeds",
+          "[variation]") {
   const Scene scene = one_hose();
   const Options options = small_tolerances(400);
   // The exact gradient, from the adjoint solution.
@@ -96,7 +98,8 @@ TEST_CASE("variation: total effects of an additive measure are its linear shares
   };
   const variation::Contributions sum = study.contributions(outcomes, 0), product = study.contributions(outcomes, 1);
   CHECK(sum.all[0].name == "hose.to.at.y");
-  for (const auto& [name, share] : {std::pair{"hose.to.at.x", 1.0 / 14}, std::pair{"hose.to.at.y", 9.0 / 14}, std::pair{"hose.to.at.z", 4.0 / 14}}) {
+  for (const auto& [name, share] :
+       {std::pair{"hose.to.at.x", 1.0 / 14}, std::pair{"hose.to.at.y", 9.0 / 14}, std::pair{"hose.to.at.z", 4.0 / 14}}) {
     const variation::Contributor c = of(sum, name);
     CAPTURE(name, c.first.value, c.total.value, c.total.low, c.total.high);
     CHECK(c.linear == Approx(share).epsilon(1e-6));
@@ -121,8 +124,10 @@ TEST_CASE("variation: the same bits for any number of threads, and whichever par
     options.effects = 20;
     options.vary = {number("a.length", 0.03), cone("b.to", 0.2), ball("c.to", 0.02), number("b.length", 0.02)};
     options.groups = {{{"a.length", "b.length"}, Eigen::MatrixXd::Constant(1, 1, 0.6)}};
-    options.measures = {measure("a.min_bend_radius"), measure("b.max_tension"), measure("tee.place.z"), measure("c.to.moment.x"),
-                        measure("a.energy.bend"), function("z", [](const SceneEquilibrium& e) { return e.branches[0].frame.at.z(); })};
+    options.measures = {
+        measure("a.min_bend_radius"), measure("b.max_tension"),
+        measure("tee.place.z"),       measure("c.to.moment.x"),
+        measure("a.energy.bend"),     function("z", [](const SceneEquilibrium& e) { return e.branches[0].frame.at.z(); })};
     const Study study(scene, options, with_seed(5, 1));
     const Outcomes whole = study.run(0, 150, {}, with_seed(5, 1));
     CAPTURE(name_of(sampling), variation::summary(whole));
@@ -144,13 +149,15 @@ TEST_CASE("variation: the same bits for any number of threads, and whichever par
   }
 }
 
-TEST_CASE("variation: an outcome by itself is the one of the study, and built-in measures are those of its equilibrium", "[variation]") {
+TEST_CASE("variation: an outcome by itself is the one of the study, and built-in measures are those of its equilibrium",
+          "[variation]") {
   const Scene scene = three_hoses();
   Options options;
   options.outcomes = 30;
   options.vary = {number("a.length", 0.03), cone("b.to", 0.2), number("c.section.EI", 0.1)};
   options.vary[2].relative = true;
-  const char* names[] = {"a.min_bend_radius", "b.max_tension", "b.max_strain", "c.length", "a.from.force.x", "b.to.moment.y", "tee.place.x"};
+  const char* names[] = {"a.min_bend_radius", "b.max_tension", "b.max_strain", "c.length",
+                         "a.from.force.x",    "b.to.moment.y", "tee.place.x"};
   for (const char* name : names) options.measures.push_back(measure(name));
   for (const auto& [what, text] : {std::pair{Measure::What::position, "position"}, std::pair{Measure::What::tangent, "tangent"},
                                    std::pair{Measure::What::force, "force"}, std::pair{Measure::What::moment, "moment"},
@@ -188,7 +195,8 @@ TEST_CASE("variation: an outcome by itself is the one of the study, and built-in
     SceneSensitivity sensitivity(eq);
     for (std::size_t m = 0; m < options.measures.size(); ++m) {
       CAPTURE(k, options.measures[m].name);
-      const SceneMeasure own = options.measures[m].built_in ? *options.measures[m].built_in : named_measure(eq, options.measures[m].name);
+      const SceneMeasure own =
+          options.measures[m].built_in ? *options.measures[m].built_in : named_measure(eq, options.measures[m].name);
       const SceneGradient g = sensitivity.gradient(own, named_parameters(eq, {"a.length"}));
       CHECK(outcomes.measures_of(k)[m] == Approx(g.value).epsilon(1e-6).margin(1e-7));
     }
@@ -196,7 +204,8 @@ TEST_CASE("variation: an outcome by itself is the one of the study, and built-in
   // The tilt is within its cone, and what the clamp turned by.
   for (int k = 0; k < 30; ++k) CHECK(std::hypot(outcomes.variables_of(k)[1], outcomes.variables_of(k)[2]) <= 0.2);
   const Frame held = study.equilibrium(4).rod("b").problem.holds[0].frame, was = study.nominal().rod("b").problem.holds[0].frame;
-  CHECK(std::acos(held.d3().dot(was.d3())) == Approx(std::hypot(outcomes.variables_of(4)[1], outcomes.variables_of(4)[2])).epsilon(1e-6));
+  CHECK(std::acos(held.d3().dot(was.d3())) ==
+        Approx(std::hypot(outcomes.variables_of(4)[1], outcomes.variables_of(4)[2])).epsilon(1e-6));
 }
 
 TEST_CASE("variation: correlated variables are, in what is drawn", "[variation]") {

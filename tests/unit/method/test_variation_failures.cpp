@@ -133,7 +133,9 @@ TEST_CASE("variation: near an obstacle outcomes touch or keep clear as cold solu
     options.outcomes = 24;
     options.vary = {number("hose.length", 0.03), ball("hose.to", 0.01)};
     options.measures = {measure("hose.clearance"), measure("hose.max_tension"),
-                        function("contacts", [](const SceneEquilibrium& e) { return static_cast<double>(e.rods[0].equilibrium.contacts.size()); })};
+                        function("contacts", [](const SceneEquilibrium& e) {
+                          return static_cast<double>(e.rods[0].equilibrium.contacts.size());
+                        })};
     const Study study(scene, options, with_seed(3));
     const Outcomes outcomes = study.run(0, 24);
     CAPTURE(gap, variation::summary(outcomes));
@@ -148,7 +150,8 @@ TEST_CASE("variation: near an obstacle outcomes touch or keep clear as cold solu
       const Equilibrium anew = solve(problem.rods[0], {}, {}, &study.nominal().rods[0].equilibrium);
       REQUIRE(anew.ok());
       double apart = 0;
-      for (std::size_t i = 0; i < anew.points.size(); ++i) apart = std::max(apart, (anew.points[i] - eq.rods[0].equilibrium.points[i]).norm());
+      for (std::size_t i = 0; i < anew.points.size(); ++i)
+        apart = std::max(apart, (anew.points[i] - eq.rods[0].equilibrium.points[i]).norm());
       CAPTURE(k, outcomes.measures_of(k)[0]);
       CHECK(apart < 1e-6);
       CHECK(outcomes.measures_of(k)[0] == Approx(eq.clearance(eq.rods[0]).value).margin(1e-8));
@@ -234,7 +237,8 @@ TEST_CASE("variation: what cannot be varied or measured is refused", "[variation
   CHECK_THAT(with(cone("a.lenght", 0.1)), Contains("unknown variable 'a.lenght'; did you mean 'a.length'?"));
   CHECK_THAT(with(cone("a.length", 0.1)), Contains("'a.length' is no frame; give a tolerance"));
   CHECK_THAT(with(number("a.from", 0.1)), Contains("'a.from' is more than one kind of number ('a.from.at.x', 'a.from.turn.x')"));
-  CHECK_THAT(with(cone("tee", 0.1)), Contains("'tee' is a branch point that nothing holds; its sections are tee.1, tee.2, tee.3"));
+  CHECK_THAT(with(cone("tee", 0.1)),
+             Contains("'tee' is a branch point that nothing holds; its sections are tee.1, tee.2, tee.3"));
   CHECK(with(cone("tee.2", 0.1)).empty());
   CHECK_THAT(with(number("a.length", -0.1)), Contains("has tolerance = -0.1, expected a number from 0 up"));
   CHECK_THAT(with(number("a.length", NAN)), Contains("has tolerance = nan"));
@@ -305,7 +309,8 @@ TEST_CASE("variation: what cannot be varied or measured is refused", "[variation
     own.measures = {std::move(request)};
     return refused(own);
   };
-  CHECK_THAT(measuring(measure("a.min_bend_radios")), Contains("method.variation: unknown measure 'a.min_bend_radios'; did you mean 'a.min_bend_radius'?"));
+  CHECK_THAT(measuring(measure("a.min_bend_radios")),
+             Contains("method.variation: unknown measure 'a.min_bend_radios'; did you mean 'a.min_bend_radius'?"));
   CHECK_THAT(measuring(measure("")), Contains("a measure has no name"));
   variation::MeasureRequest request = measure("gap");
   request.rod = "a";
@@ -340,7 +345,8 @@ TEST_CASE("outcomes: a table puts its parts together and writes itself", "[varia
   Outcomes a(0, 2, variables, measures, 0), b(2, 1, variables, measures, 0);
   const double x = 1.5, y = 2.25;
   a.set(0, OutcomeStatus::solved, {&x, 1}, {&y, 1}, {}, "");
-  CHECK_THROWS_WITH(a.set(1, OutcomeStatus::failed, {&x, 1}, {}, {}, ""), Catch::Contains("outcome 1 has 0 measures, expected 1"));
+  CHECK_THROWS_WITH(a.set(1, OutcomeStatus::failed, {&x, 1}, {}, {}, ""),
+                    Catch::Contains("outcome 1 has 0 measures, expected 1"));
   CHECK_THROWS_WITH(a.set(2, OutcomeStatus::failed, {&x, 1}, {&y, 1}, {}, ""), Catch::Contains("got outcome 2, expected 0 to 1"));
   const double nothing = NAN;
   a.set(1, OutcomeStatus::failed, {&x, 1}, {&nothing, 1}, {}, "no \"equilibrium\", alas");
@@ -353,7 +359,8 @@ TEST_CASE("outcomes: a table puts its parts together and writes itself", "[varia
         "1,failed,1.5,,\"no \"\"equilibrium\"\", alas\"\n"
         "2,jumped,2.25,1.5,snaps\n");
   CHECK(all.column(0) == std::vector<double>{2.25, 1.5});
-  const Outcomes twice[] = {a, a}, hole[] = {a, Outcomes(3, 1, variables, measures, 0)}, others[] = {a, Outcomes(2, 1, measures, measures, 0)};
+  const Outcomes twice[] = {a, a}, hole[] = {a, Outcomes(3, 1, variables, measures, 0)},
+                 others[] = {a, Outcomes(2, 1, measures, measures, 0)};
   CHECK_THROWS_WITH(Outcomes::merged(twice), Catch::Contains("outcomes 0 and on are there twice"));
   CHECK_THROWS_WITH(Outcomes::merged(hole), Catch::Contains("outcomes 3 and on do not follow those before, which end at 1"));
   CHECK_THROWS_WITH(Outcomes::merged(others), Catch::Contains("their columns differ"));

@@ -79,6 +79,8 @@ inline RunContext with_seed(std::uint64_t seed, int threads = 0) {
 }
 
 /// The same bits in every number, NaN included.
-inline bool identical(const variation::Outcomes& a, const variation::Outcomes& b) { return a.first() == b.first() && a.csv() == b.csv(); }
+inline bool identical(const variation::Outcomes& a, const variation::Outcomes& b) {
+  return a.first() == b.first() && a.csv() == b.csv();
+}
 
 }  // namespace tendril::testing

@@ -309,6 +309,37 @@ TEST_CASE("batch: the same bits for any number of threads, any order and any nei
   CHECK(same_bits(one, 17, alone, 0));
 }
 
+TEST_CASE("batch: told what varies it gives the same bits, told too little the same equilibria", "[batch]") {
+  const SystemProblem nominal = rich_harness();
+  const auto fill = [&](int outcome, SystemProblem& problem) {
+    problem = nominal;
+    problem.rods[0].holds[0].frame.at.y() += 0.002 * outcome;
+    problem.rods[3].holds[0].frame.rotation = nominal.rods[3].holds[0].frame.rotation * exp_rotation({0.01 * outcome, 0, 0});
+  };
+  const SystemEquilibrium found = solve(nominal);
+  Batch::Start start;
+  for (const Equilibrium& rod : found.rods) {
+    start.vertices.emplace_back();
+    for (std::size_t i = 0; i < rod.points.size(); ++i) start.vertices.back().push_back({rod.points[i], rod.rotations[i]});
+  }
+  start.branches = found.branches;
+  std::vector<SystemProblem> varied(1, nominal);
+  fill(1, varied[0]);
+  const Batch all(nominal, start), told(nominal, start, {}, varied);
+  varied[0].rods[3] = nominal.rods[3];
+  const Batch too_little(nominal, start, {}, varied);
+  BatchResults a, b, c;
+  all.solve(20, fill, a);
+  told.solve(20, fill, b);
+  too_little.solve(20, fill, c);
+  for (int k = 0; k < 20; ++k) {
+    CHECK(same_bits(a, k, b, k));
+    REQUIRE(c[k].ok());
+    for (int rod = 0; rod < a.rods(); ++rod)
+      CHECK((a.frame(k, rod, a.vertices(rod) / 2).at - c.frame(k, rod, a.vertices(rod) / 2).at).norm() < 1e-8);
+  }
+}
+
 TEST_CASE("batch: AVX2 and AVX-512 give the same bits", "[batch]") {
   const BatchKernel *four = batch_kernel(InstructionSet::avx2), *eight = batch_kernel(InstructionSet::avx512);
   if (!four || !eight) {
