@@ -321,27 +321,6 @@ function placed_branch_methods:hold(frame, options) end
 ---@return placed_branch
 function placed_branch_methods:release() end
 
----Rods that left their equilibrium and came to rest in another one
----@class snap_through
----@field energy_drop number Energy set free (J)
----@field move number By so much (m)
----@field rod string Which moved farthest
----@field s number At this arc length (m)
----@field t number When
-local snap_through_methods = {}
-
----A quasi-static motion
----@class motion
----@field equilibria (equilibrium)[] At those times
----@field message string What there is to say about it
----@field ok boolean It went to the end
----@field seconds number Run time (s)
----@field snaps (snap_through)[] Snap-throughs, in time order
----@field solves integer Equilibria that were computed
----@field status string "solved", "stalled", "cancelled", "timeout"
----@field times (number)[] t of the equilibria
-local motion_methods = {}
-
 ---The smallest gap; computes as a number in m, negative where surfaces penetrate
 ---@class clearance
 ---@field at vec The place on the rod's centre line (m)
@@ -504,6 +483,245 @@ function equilibrium_methods:rod(name) end
 ---@field value number Of the measure, in its SI unit
 ---@field [string] any
 local gradient_methods = {}
+
+---How an envelope was made
+---@class envelope_report
+---@field failed integer Outcomes without an equilibrium: not contained
+---@field jumped integer Contained, in another equilibrium than the nominal one's continuation
+---@field left_out integer How many were left out for the share
+---@field margin number Added to the radii so that the grid loses nothing (m)
+---@field ok boolean There is a mesh
+---@field outcomes integer Contained
+---@field resolution number Grid step (m)
+---@field sagitta number Added for the centre line's bulge from its chords (m)
+---@field seconds number For the envelope (s)
+---@field seconds_for_outcomes number For solving them (s)
+---@field status string How it ended
+---@field steps table<string, number> Seconds of each step, by name (s)
+---@field volume number Within the envelope (m^3)
+local envelope_report_methods = {}
+
+---Frames of a body over time, read by study.motion
+---@class sampled_motion
+---@field frames (frame)[] Of the body, at those times
+---@field times (number)[] Rising (s)
+local sampled_motion_methods = {}
+
+---The body's frame at a time (s), evenly between the samples.
+---@param time number
+---@return frame
+function sampled_motion_methods:at(time) end
+
+---The frames of a place that moves with the body and is given as it is at the first sample.
+---@param place frame
+---@return (frame)[]
+function sampled_motion_methods:carried(place) end
+
+---Rods that left their equilibrium and came to rest in another one
+---@class snap_through
+---@field energy_drop number Energy set free (J)
+---@field move number By so much (m)
+---@field rod string Which moved farthest
+---@field s number At this arc length (m)
+---@field t number When
+local snap_through_methods = {}
+
+---A quasi-static motion
+---@class motion
+---@field equilibria (equilibrium)[] At those times
+---@field message string What there is to say about it
+---@field ok boolean It went to the end
+---@field seconds number Run time (s)
+---@field snaps (snap_through)[] Snap-throughs, in time order
+---@field solves integer Equilibria that were computed
+---@field status string "solved", "stalled", "cancelled", "timeout"
+---@field times (number)[] t of the equilibria
+local motion_methods = {}
+
+---@class (exact) tendril.motion.clearance.options
+---@field from? string The rod; may be left out when there is only one
+---@field to? string The obstacle; default: the nearest of all
+
+---The smallest gap at each of those times: a list.
+---@param options? tendril.motion.clearance.options
+---@return (clearance)[]
+function motion_methods:clearance(options) end
+
+---@class (exact) tendril.motion.envelope.options
+---@field resolution? number Grid step; at most the thinnest rod's radius (m; > 0; default 0.002)
+---@field share? number Of the outcomes that it contains entirely; 1: all of them (> 0 and <= 1; default 1)
+---@field memory? number That it may take: more is refused (bytes; > 0; default 2000000000)
+---@field threads? integer At most; default: all that the machine has (1 ... 4096)
+---@field timeout? number Give up after this time, with the best state so far; default: never (s; > 0 and <= 1000000000)
+
+---A watertight mesh that contains the rods at all times of the motion, and how it was made.
+---@param options? tendril.motion.envelope.options
+---@return mesh, envelope_report
+function motion_methods:envelope(options) end
+
+---How measures answer to design variables: st.matrix[measure][variable], in SI units
+---@class stability
+---@field equilibrium equilibrium That it is about
+---@field matrix table<string, table<string, number>> Derivatives by measure and variable
+---@field measures (string)[] Names
+---@field message string What there is to say about it
+---@field ok boolean All derivatives exist
+---@field seconds number Run time (s)
+---@field status string How it ended
+---@field variables (string)[] Names
+---@field within table<string, table<string, number>> The same times the tolerances, in the measure's unit
+local stability_methods = {}
+
+---How far each vertex of a rod moves, m: the most that one variable does within its tolerance; without tolerances per unit of all variables.
+---@param rod string
+---@return (number)[]
+function stability_methods:moves(rod) end
+
+---An estimate that computes as a number, with its 95 % interval
+---@class estimate
+---@field high number Upper end
+---@field kind string How the interval was made
+---@field low number Lower end of the interval
+---@field unit string SI
+---@field value number The estimate
+---@operator add(number|estimate): number
+---@operator sub(number|estimate): number
+---@operator mul(number|estimate): number
+---@operator div(number|estimate): number
+---@operator unm: number
+local estimate_methods = {}
+
+---What a variable contributes to a measure's variance, as shares of it
+---@class contributor
+---@field first estimate By itself (effects = n)
+---@field linear number By the exact gradient at the nominal design
+---@field name string Of the variable, or of variables that depend on each other
+---@field regression number By linear regression over the outcomes
+---@field total estimate With all its interactions (effects = n)
+local contributor_methods = {}
+
+---One outcome
+---@class outcome
+---@field measures table<string, number> By name; NaN where it failed
+---@field message string Why it is not solved
+---@field status string "solved", "jumped", "failed" or "unsolved"
+---@field variables table<string, number> By name
+local outcome_methods = {}
+
+---The outcomes of a study, in order
+---@class outcomes
+---@field [integer] any
+---@operator len: integer
+local outcomes_methods = {}
+
+---One measure over all outcomes
+---@class measured
+---@field contributors (contributor)[] Which variables are to blame for the variance, largest first; effects = n adds total effects
+---@field count integer Outcomes that have it
+---@field deviation estimate Standard deviation
+---@field interval table<string, (number)[]> 95 % intervals {low, high} by name: mean, deviation and the quantiles
+---@field max number Largest value
+---@field mean estimate With its 95 % interval
+---@field min number Smallest value
+---@field missing integer Outcomes that failed
+---@field name string Of the measure
+---@field nominal number Of the nominal design
+---@field q001 estimate Quantile: this share of the outcomes lies below
+---@field q01 estimate Quantile: this share of the outcomes lies below
+---@field q05 estimate Quantile: this share of the outcomes lies below
+---@field q50 estimate Quantile: this share of the outcomes lies below
+---@field q95 estimate Quantile: this share of the outcomes lies below
+---@field q99 estimate Quantile: this share of the outcomes lies below
+---@field q999 estimate Quantile: this share of the outcomes lies below
+---@field unit string SI
+---@field values (number)[] Of all outcomes that have it, in order
+local measured_methods = {}
+
+---The share of all outcomes above a limit.
+---@param limit number
+---@return estimate
+function measured_methods:above(limit) end
+
+---The share of all outcomes below a limit; its interval counts failed ones either way.
+---@param limit number
+---@return estimate
+function measured_methods:below(limit) end
+
+---The contributors as a table of text.
+---@return string
+function measured_methods:blame() end
+
+---@class (exact) tendril.measured.histogram.options
+---@field title? string Above it
+---@field limit? number A line at this value
+
+---A chart of how often which values occur.
+---@param options? tendril.measured.histogram.options
+---@return chart
+function measured_methods:histogram(options) end
+
+---The value below which this share (0 ... 1) of the outcomes lies.
+---@param share number
+---@return estimate
+function measured_methods:quantile(share) end
+
+---A chart of the measure over a variable or another measure, a point an outcome.
+---@param variable string
+---@return chart
+function measured_methods:scatter(variable) end
+
+---Many outcomes of a design: v["hose.min_bend_radius"].mean, or v.gap of a measure called gap
+---@class variation
+---@field failed (integer)[] Numbers of the outcomes without an equilibrium
+---@field jumped (integer)[] Numbers of the outcomes in another equilibrium than the nominal one's continuation
+---@field measures (string)[] Names
+---@field message string How many, how many failed or jumped, and which
+---@field nominal equilibrium The nominal equilibrium
+---@field ok boolean Every outcome has its measures
+---@field outcomes outcomes #v.outcomes, v.outcomes[k].variables, .measures, .status, .message
+---@field seconds number Run time (s)
+---@field status string "solved", "cancelled", "timeout"
+---@field variables (string)[] Names of their components
+---@field [string] any
+local variation_methods = {}
+
+---All values of a variable's component or a measure, in order; NaN where there is none.
+---@param name string
+---@return (number)[]
+function variation_methods:column(name) end
+
+---@class (exact) tendril.variation.envelope.options
+---@field resolution? number Grid step; at most the thinnest rod's radius (m; > 0; default 0.002)
+---@field share? number Of the outcomes that it contains entirely; 1: all of them (> 0 and <= 1; default 1)
+---@field memory? number That it may take: more is refused (bytes; > 0; default 2000000000)
+---@field uniform? boolean Every variable uniform over its tolerance, for the space that may be needed within the tolerances; false: spread as in the study (default true)
+---@field outcomes? integer How many; default: as many as the study's (1 ... 10000000)
+---@field threads? integer At most; default: all that the machine has (1 ... 4096)
+---@field timeout? number Give up after this time, with the best state so far; default: never (s; > 0 and <= 1000000000)
+
+---A watertight mesh that contains the rods in every outcome (or a share of the outcomes), and how it was made.
+---@param options? tendril.variation.envelope.options
+---@return mesh, envelope_report
+function variation_methods:envelope(options) end
+
+---One outcome (counted from 1) again, as an equilibrium of the scene.
+---@param outcome integer
+---@return equilibrium
+function variation_methods:equilibrium(outcome) end
+
+---The measure of this name, also where a property hides it.
+---@param name string
+---@return measured
+function variation_methods:measure(name) end
+
+---The card with the contributors of every measure, as text.
+---@return string
+function variation_methods:report() end
+
+---Writes the outcomes into a .csv: status, variables, measures, message.
+---@param path string
+---@return saved_file
+function variation_methods:save(path) end
 
 ---A file that was saved
 ---@class saved_file
@@ -801,12 +1019,57 @@ function scene.cylinder(options) end
 ---@return solid
 function scene.plane(options) end
 
+---What engineers do with scenes: analyses and searches that take a scene and never change it
+method = {}
+
+---@class (exact) tendril.method.stability.options
+---@field vary? table<string, number>|(string)[] Design variables: a list of names, or {["hose.length"] = tolerance}; a name that others begin with means all of them; default: lengths, frames of holds and branch points, gravity
+---@field measure? (string)[] Names; default: bend radius, tension, length and clearance of every rod
+---@field element? "se3"|"staggered" Rod element: fourth order, or the second-order reference element (default "se3")
+---@field clamp? "half_cell"|"thesis" How the staggered element clamps an end: second order, or the thesis's first order (default "half_cell")
+---@field tolerance? number Largest last step: rotations in rad, positions over the length (1e-14 ... 0.01; default 1e-09)
+---@field clearance? "judge"|"push" What obstacles' required clearances do: judged after the solve, or kept: contact then acts that far off, growing from nothing at holds (default "judge")
+---@field error? boolean Also estimate the discretisation error (default false)
+---@field timeout? number Give up after this time, with the best state so far; default: never (s; > 0 and <= 1000000000)
+
+---The exact first-order matrix: how measures answer to design variables. Print it for a table with units.
+---@param scene scene
+---@param options? tendril.method.stability.options
+---@return stability
+function method.stability(scene, options) end
+
+---@class (exact) tendril.method.variation.options
+---@field vary table<string, number|{tolerance: number?, relative: boolean?, ball: number?, box: vec?, cone: number?, twist: number?, spread: string|function?, sigma: number?, values: number[]?, frames: frame[]?}> Which numbers vary, by name ("hose.length", "hose.from", "hose.section.EI", "gravity", "tee"), and how
+---@field together? ({[integer]: string, correlation: number|number[][]})[] Variables that depend on each other: {{"a.length", "b.length", correlation = 0.8}}
+---@field measure? table<integer|string, string|function|{rod: string, what: string, at: number|string?, along: vec?, to: string?}> What is measured on every outcome; default: bend radius, tension, length and clearance of every rod
+---@field outcomes? integer How many (1 ... 100000000; default 1000)
+---@field sampling? "random"|"sobol"|"latin" How outcomes fill the space of the variables (default "random")
+---@field replicates? integer Of Sobol' points and Latin hypercubes: independent sets, which give the intervals (2 ... 1024; default 8)
+---@field effects? integer For so many outcomes each variable is drawn anew: total effects of the contributors (0 ... 10000000; default 0)
+---@field store? string File (SQLite) that keeps the outcomes as they come: a study that was stopped goes on there
+---@field uniform? boolean Every variable uniform over its tolerance: for envelopes (default false)
+---@field element? "se3"|"staggered" Rod element: fourth order, or the second-order reference element (default "se3")
+---@field clamp? "half_cell"|"thesis" How the staggered element clamps an end: second order, or the thesis's first order (default "half_cell")
+---@field tolerance? number Largest last step: rotations in rad, positions over the length (1e-14 ... 0.01; default 1e-09)
+---@field clearance? "judge"|"push" What obstacles' required clearances do: judged after the solve, or kept: contact then acts that far off, growing from nothing at holds (default "judge")
+---@field error? boolean Also estimate the discretisation error (default false)
+---@field seed? integer Of all random numbers: the same seed gives the same bits (>= 0; default 1)
+---@field threads? integer At most; default: all that the machine has (1 ... 4096)
+---@field progress? function function(share, what), called now and then
+---@field timeout? number Give up after this time, with the best state so far; default: never (s; > 0 and <= 1000000000)
+
+---Many outcomes of a design whose numbers vary: statistics with confidence intervals, contributors, failures and jumps.
+---@param scene scene
+---@param options tendril.method.variation.options
+---@return variation
+function method.variation(scene, options) end
+
 ---Pictures
 view = {}
 
 ---@class (exact) tendril.view.new.options
 ---@field [integer] scene|equilibrium The scene, its equilibrium, or both
----@field color? string|(number)[] What the rods' colour says: "clearance", "curvature", "tension", "twist", or {r, g, b} from 0 to 1; default: clearance when there are obstacles, else curvature
+---@field color? string|(number)[]|stability What the rods' colour says: "clearance", "curvature", "tension", "twist", {r, g, b} from 0 to 1, or a stability: how far tolerances move it; default: clearance when there are obstacles, else curvature
 ---@field ghost? (string)[] Obstacles to see through, the others are solid; default: all
 ---@field envelope? mesh A shell around the rods to see through; with color = "clearance" its colours say how near obstacles are to it, and the rods are plain
 ---@field title? string On the card
@@ -816,8 +1079,17 @@ view = {}
 ---@return view
 function view.new(options) end
 
----Charts, and what a result costs
+---Charts, motions from files, and what a result costs
 study = {}
+
+---@class (exact) tendril.study.motion.options
+---@field unit "mm"|"cm"|"m"|"in" Length unit of x, y, z
+
+---A rigid motion from a .csv: columns t (s), x, y, z, and qw, qx, qy, qz or rx, ry, rz (rad) where it turns.
+---@param path string
+---@param options tendril.study.motion.options
+---@return sampled_motion
+function study.motion(path, options) end
 
 ---@class (exact) tendril.study.chart.options
 ---@field kind? "lines"|"scatter"|"bars"|"histogram" What it draws (default "lines")

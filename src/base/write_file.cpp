@@ -11,6 +11,7 @@
 #include <iterator>
 
 #include "base/error.h"
+#include "base/processes.h"
 
 namespace tendril {
 namespace {
@@ -40,6 +41,7 @@ bool write_all(int file, std::string_view content) {
 }  // namespace
 
 void write_file(const std::string& path, std::string_view content) {
+  if (!is_first_process()) return;
   if (path.empty()) throw UsageError("cannot write a file without a name");
   make_folder_of(path);
   if (std::filesystem::is_directory(path)) fail("cannot write", path, "it is a folder");

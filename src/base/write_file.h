@@ -7,7 +7,8 @@
 namespace tendril {
 
 /// Writes `content` beside `path` under a temporary name, then renames it. Missing folders are created. Throws
-/// UsageError naming the path and the system's reason; an existing file is then left as it was.
+/// UsageError naming the path and the system's reason; an existing file is then left as it was. Of several processes
+/// (base/processes.h) only the first one writes.
 void write_file(const std::string& path, std::string_view content);
 
 /// The whole file as bytes. Throws UsageError naming the path and the reason.

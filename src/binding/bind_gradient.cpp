@@ -46,23 +46,6 @@ double place_on(const SolvedRod& rod, const std::variant<std::string, double>& a
   throw UsageError("equilibrium:gradient: unknown place '" + end + "', expected \"start\", \"finish\" or an arc length in m");
 }
 
-SceneMeasure measure_of(const SceneEquilibrium& eq, const MeasureTable& table) {
-  const auto [system, index] = place_of_rod(eq, table.rod);
-  const What what = std::find_if(std::begin(whats), std::end(whats), [&](const auto& w) { return table.what == w.first; })->second;
-  if (what == What::gap) return clearance_measure(eq, table.rod, table.to.empty() ? -1 : eq.obstacle(table.to));
-  const SolvedRod& rod = eq.rod(table.rod);
-  SceneMeasure out{table.rod + ": " + table.what, system, {}};
-  out.measure.what = what;
-  out.measure.rod = index;
-  out.measure.at = place_on(rod, table.at);
-  out.measure.along = table.along;
-  if (out.measure.at < 0 || out.measure.at > rod.problem.rod.length)
-    throw UsageError("equilibrium:gradient: at = " + plain_number(out.measure.at) + " m lies outside '" + table.rod + "' (0 to " +
-                     plain_number(rod.problem.rod.length) + " m)");
-  out.name += " at " + quantity(out.measure.at, "m");
-  return out;
-}
-
 std::string describe_gradient(const SceneGradient& g) {
   std::string text = "gradient of " + g.measure + " (" + quantity(g.value, g.unit) + ")";
   if (!g.ok) text += ", NOT VALID: " + g.message;
@@ -86,6 +69,23 @@ std::vector<std::string> names_of(const SceneGradient& g) {
 }
 
 }  // namespace
+
+SceneMeasure scene_measure(const SceneEquilibrium& eq, const MeasureTable& table) {
+  const auto [system, index] = place_of_rod(eq, table.rod);
+  const What what = std::find_if(std::begin(whats), std::end(whats), [&](const auto& w) { return table.what == w.first; })->second;
+  if (what == What::gap) return clearance_measure(eq, table.rod, table.to.empty() ? -1 : eq.obstacle(table.to));
+  const SolvedRod& rod = eq.rod(table.rod);
+  SceneMeasure out{table.rod + ": " + table.what, system, {}};
+  out.measure.what = what;
+  out.measure.rod = index;
+  out.measure.at = place_on(rod, table.at);
+  out.measure.along = table.along;
+  if (out.measure.at < 0 || out.measure.at > rod.problem.rod.length)
+    throw UsageError("equilibrium:gradient: at = " + plain_number(out.measure.at) + " m lies outside '" + table.rod + "' (0 to " +
+                     plain_number(rod.problem.rod.length) + " m)");
+  out.name += " at " + quantity(out.measure.at, "m");
+  return out;
+}
 
 const Kind& Value<MeasureTable>::kind() {
   static const Kind kind{"a table {rod =, what =, at =, along =}",
@@ -118,7 +118,7 @@ SceneGradient gradient_of(lua_State* L, const std::shared_ptr<SceneEquilibrium>&
     return sensitivity.gradient(call, by, run_context(L));
   }
   const std::string* name = std::get_if<std::string>(&measure);
-  return sensitivity.gradient(name ? named_measure(*eq, *name) : measure_of(*eq, std::get<MeasureTable>(measure)), by, run_context(L));
+  return sensitivity.gradient(name ? named_measure(*eq, *name) : scene_measure(*eq, std::get<MeasureTable>(measure)), by, run_context(L));
 }
 
 void bind_gradient(lua_State* L) {

@@ -26,6 +26,9 @@ struct Value<MeasureTable> {
   static MeasureTable read(lua_State* L, int index);
 };
 
+/// The measure that the table describes. Throws UsageError for a rod, place or obstacle that does not exist.
+SceneMeasure scene_measure(const SceneEquilibrium& equilibrium, const MeasureTable& table);
+
 using MeasureArgument = std::variant<std::string, Function, MeasureTable>;
 
 /// The body of eq:gradient(measure, parameters).

@@ -3,7 +3,10 @@
 
 #include <cmath>
 
+#include "binding/bind_envelope.h"
+#include "binding/bind_mesh.h"
 #include "binding/card.h"
+#include "binding/clearance_value.h"
 #include "binding/examples.h"
 #include "binding/lua_context.h"
 #include "binding/open.h"
@@ -11,6 +14,11 @@
 
 namespace tendril::lua {
 namespace {
+
+const std::string motion_example =
+    "local f = assert(io.open(\"engine.csv\", \"w\"))\n"
+    "f:write(\"t,x,y,z,rx,ry,rz\\n0,0,0,0,0,0,0\\n1,10,0,-4,0,0.05,0\\n\")\nf:close()\n"
+    "local m = study.motion(\"engine.csv\", {unit = \"mm\"})\n";
 
 /// A function of t = 0 ... 1, or frames that are passed evenly spaced in t.
 using Path = std::variant<Function, std::vector<Frame>>;
@@ -71,6 +79,28 @@ std::string describe_motion(const SceneMotion& motion) {
   return card.text();
 }
 
+/// The smallest gap at each kept time.
+std::vector<ClearanceValue> clearances_of(const SceneMotion& m, const Options& o) {
+  std::vector<ClearanceValue> all;
+  for (const auto& equilibrium : m.equilibria) all.push_back(clearance_between(*equilibrium, o));
+  return all;
+}
+
+void bind_sampled_motion(lua_State* L) {
+  Class<SampledMotion>(L, "Frames of a body over time, read by study.motion")
+      .property("times", "s", "Rising", [](const SampledMotion& m) { return m.times; })
+      .property("frames", "", "Of the body, at those times", [](const SampledMotion& m) { return m.frames; })
+      .method("at", {.takes = {"time"}, .does = "The body's frame at a time (s), evenly between the samples.",
+                     .example = motion_example + "print(m:at(0.5).at)  --> vec(0.005, 0, -0.002)"},
+              [](const SampledMotion& m, double time) { return m.at(time); })
+      .method("carried", {.takes = {"place"}, .does = "The frames of a place that moves with the body and is given as it is at the first sample.",
+                          .example = motion_example + "print(m:carried(frame{at = {0, 1, 0}, along = {0, 1, 0}})[1].at)  --> vec(0, 1, 0)"},
+              [](const SampledMotion& m, const Frame& place) { return m.carried(place); })
+      .tostring([](const SampledMotion& m) {
+        return Card("sampled motion").row("samples", std::to_string(m.times.size())).row("from", m.times.front(), "s").row("to", m.times.back(), "s").text();
+      });
+}
+
 }  // namespace
 
 void add_motion_to(Class<Scene>& scene) {
@@ -93,7 +123,17 @@ void add_motion_to(Class<Scene>& scene) {
                });
 }
 
-void bind_motion(lua_State* L) {
+void add_sampled_motion_to(Module& study) {
+  study.function("motion",
+                 {.takes = {"path"},
+                  .options = {option<std::string>("unit", "", "Length unit of x, y, z").one_of({"mm", "cm", "m", "in"}).required()},
+                  .does = "A rigid motion from a .csv: columns t (s), x, y, z, and qw, qx, qy, qz or rx, ry, rz (rad) where it turns.",
+                  .example = motion_example + "print(#m.frames)  --> 2"},
+                 [](const std::string& path, const Options& o) { return read_motion(path, metres_per(o.get<std::string>("unit"))); });
+}
+
+void bind_motion(lua_State* L, const std::shared_ptr<EnvelopeBuilder>& builder) {
+  bind_sampled_motion(L);
   Class<SceneSnap>(L, "Rods that left their equilibrium and came to rest in another one")
       .property("t", "", "When", [](const SceneSnap& s) { return s.snap.t; })
       .property("rod", "", "Which moved farthest", [](const SceneSnap& s) { return s.rod; })
@@ -103,8 +143,8 @@ void bind_motion(lua_State* L) {
       .tostring([](const SceneSnap& s) {
         return "snap-through of '" + s.rod + "' at t = " + plain_number(s.snap.t) + ": " + quantity(s.snap.move, "m");
       });
-  Class<SceneMotion>(L, "A quasi-static motion")
-      .property("ok", "", "It went to the end", [](const SceneMotion& m) { return m.ok(); })
+  Class<SceneMotion> motion(L, "A quasi-static motion");
+  motion.property("ok", "", "It went to the end", [](const SceneMotion& m) { return m.ok(); })
       .property("status", "", "\"solved\", \"stalled\", \"cancelled\", \"timeout\"", [](const SceneMotion& m) { return name_of(m.status); })
       .property("message", "", "What there is to say about it", [](const SceneMotion& m) { return m.message; })
       .property("seconds", "s", "Run time", [](const SceneMotion& m) { return m.seconds; })
@@ -112,7 +152,14 @@ void bind_motion(lua_State* L) {
       .property("times", "", "t of the equilibria", [](const SceneMotion& m) { return m.times; })
       .property("equilibria", "", "At those times", [](const SceneMotion& m) { return m.equilibria; })
       .property("snaps", "", "Snap-throughs, in time order", [](const SceneMotion& m) { return m.snaps; })
+      .method("clearance", {.options = clearance_options(), .does = "The smallest gap at each of those times: a list.",
+                            .example = with_hose("s:obstacle(\"floor\", scene.plane(), {pose = frame{at = {0, 0, -1}, along = {0, 0, 1}}})\n"
+                                                 "local m = s:motion{steps = 2, holds = {[\"hose.finish\"] = function(t)\n"
+                                                 "  return frame{at = {0.9 - 0.2 * t, 0, 0}, along = {1, 0, 0}} end}}\n"
+                                                 "local gaps = m:clearance{from = \"hose\"}\nprint(gaps[3] < gaps[1])  --> true")},
+              clearances_of)
       .tostring(describe_motion);
+  add_envelope_to(motion, builder);
 }
 
 }  // namespace tendril::lua

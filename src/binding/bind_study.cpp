@@ -1,6 +1,7 @@
 // study: charts, and what a result costs.
 #include "base/number_text.h"
 #include "binding/accuracy_chart.h"
+#include "binding/bind_motion.h"
 #include "binding/card.h"
 #include "binding/examples.h"
 #include "binding/lua_class.h"
@@ -255,8 +256,9 @@ void bind_study(lua_State* L) {
         return Card("sheet of charts").row("charts", std::to_string(sheet.charts.size())).text();
       });
   bind_accuracy(L);
-  Module(L, "study", "Charts, and what a result costs")
-      .function("chart",
+  Module study(L, "study", "Charts, motions from files, and what a result costs");
+  add_sampled_motion_to(study);
+  study.function("chart",
                 {.options = chart_options(), .does = "A chart of lines, points, bars or a histogram; draw it with :save(path).",
                  .example = "local c = study.chart{title = \"Sag\", x_label = \"length [m]\", y_label = \"sag [mm]\",\n"
                             "  series = {{name = \"hose\", x = {1.0, 1.1, 1.2}, y = {12, 95, 160}}}}\n"

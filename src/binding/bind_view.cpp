@@ -9,6 +9,7 @@
 #include "binding/saved_file.h"
 #include "binding/scene_classes.h"
 #include "binding/solve_options.h"
+#include "binding/variation_classes.h"
 
 namespace tendril::lua {
 
@@ -22,7 +23,7 @@ struct View {
 namespace {
 
 using Shown = std::variant<Scene, SceneEquilibrium>;
-using Colour = std::variant<std::string, std::array<double, 3>>;
+using Colour = std::variant<std::string, std::array<double, 3>, StabilityHandle>;
 using OneOrMany = std::variant<std::string, std::vector<std::string>>;
 
 /// Scenes and equilibria, shared and not copied.
@@ -42,8 +43,8 @@ const std::vector<std::string>& colour_names() {
 
 Schema view_options() {
   return Schema{
-      option<Colour>("color", "", "What the rods' colour says: \"clearance\", \"curvature\", \"tension\", \"twist\", or {r, g, b} "
-                                  "from 0 to 1; default: clearance when there are obstacles, else curvature"),
+      option<Colour>("color", "", "What the rods' colour says: \"clearance\", \"curvature\", \"tension\", \"twist\", {r, g, b} "
+                                  "from 0 to 1, or a stability: how far tolerances move it; default: clearance when there are obstacles, else curvature"),
       option<std::vector<std::string>>("ghost", "", "Obstacles to see through, the others are solid; default: all"),
       option<MeshValue>("envelope", "", "A shell around the rods to see through; with color = \"clearance\" its colours say how near "
                                         "obstacles are to it, and the rods are plain"),
@@ -61,8 +62,21 @@ Schema save_options() {
          } + timeout_schema();
 }
 
-void read_colour(const Options& o, PictureWish& wish) {
+void read_moves(const StabilityHandle& stability, const SceneEquilibrium* shown, PictureWish& wish) {
+  if (stability.result.moves.empty()) throw UsageError("view.new: 'color': the stability knows no moves: " + stability.result.message);
+  const SceneEquilibrium& eq = *stability.equilibrium;
+  for (std::size_t k = 0; k < eq.rods.size(); ++k) {
+    if (!shown || k >= shown->rods.size() || shown->rods[k].name != eq.rods[k].name ||
+        shown->rods[k].equilibrium.s.size() != eq.rods[k].equilibrium.s.size())
+      throw UsageError("view.new: 'color': the stability is about another equilibrium than the one that is shown; show stability.equilibrium");
+    wish.moves.push_back(stability.result.colour(static_cast<int>(k)));
+  }
+  wish.colour = RodColour::moves;
+}
+
+void read_colour(const Options& o, const SceneEquilibrium* shown, PictureWish& wish) {
   const Colour colour = o.get<Colour>("color");
+  if (const auto* stability = std::get_if<StabilityHandle>(&colour)) return read_moves(*stability, shown, wish);
   if (const auto* rgb = std::get_if<std::array<double, 3>>(&colour)) {
     for (const double part : *rgb)
       if (part < 0 || part > 1) throw UsageError("view.new: 'color' has " + plain_number(part) + ", expected 0 to 1");
@@ -99,7 +113,7 @@ View make_view(lua_State* L, const Options& o) {
   read_shown(L, o, view);
   const bool obstacles = view.equilibrium ? !view.equilibrium->obstacles.empty() : !view.scene->obstacles().empty();
   view.wish.colour = obstacles ? RodColour::clearance : RodColour::curvature;
-  if (o.has("color")) read_colour(o, view.wish);
+  if (o.has("color")) read_colour(o, view.equilibrium.get(), view.wish);
   if (const MeshValue* envelope = o.find<MeshValue>("envelope")) view.wish.envelope = envelope->surface;
   view.wish.ghost = o.maybe<std::vector<std::string>>("ghost");
   view.wish.title = o.maybe<std::string>("title").value_or("");

@@ -11,12 +11,13 @@
 
 namespace tendril {
 
-/// What the colour of a rod says. plain: PictureWish::plain.
-enum class RodColour { clearance, curvature, tension, twist, plain };
+/// What the colour of a rod says. plain: PictureWish::plain. moves: PictureWish::moves.
+enum class RodColour { clearance, curvature, tension, twist, plain, moves };
 
 struct PictureWish {
   RodColour colour = RodColour::clearance;
   Rgb plain{0.20f, 0.42f, 0.65f};
+  std::vector<std::vector<double>> moves;         ///< m, by rod and vertex: how far tolerances move them
   std::optional<std::vector<std::string>> ghost;  ///< these obstacles are ghosted, the others solid; default: all
   std::string title;
   std::vector<std::string> views{"iso", "front", "top", "card"};

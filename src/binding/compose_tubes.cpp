@@ -10,6 +10,7 @@ namespace tendril {
 namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+constexpr Rgb body_colour{0.36f, 0.38f, 0.42f};
 
 /// Piecewise linear through (x, y), constant beyond its ends. x ascends.
 double interpolated(const std::vector<double>& x, const std::vector<double>& y, double at) {
@@ -48,6 +49,13 @@ Profile profile_of(const Equilibrium& eq, RodColour colour) {
   return profile;
 }
 
+/// mm.
+Profile moves_of(const Equilibrium& eq, const std::vector<double>& moves) {
+  Profile profile{eq.s, {}};
+  for (const double move : moves) profile.value.push_back(move / units::mm);
+  return profile;
+}
+
 /// What contact leaves of a penetration is none in a picture: where no clearance is required, touching is no offence.
 double shown_gap(double gap, double required, double radius) {
   const bool touches = required == 0 && gap < 0 && !too_close(gap, required, radius);
@@ -77,7 +85,8 @@ PictureTube compose_tube(const SceneEquilibrium& eq, const SolvedRod& rod, const
   tube.radius = design.largest_radius();
   tube.colour = wish.plain;
   const bool by_profile = wish.colour != RodColour::plain && wish.colour != RodColour::clearance;
-  const Profile profile = by_profile ? profile_of(rod.equilibrium, wish.colour) : Profile();
+  Profile profile = by_profile && wish.colour != RodColour::moves ? profile_of(rod.equilibrium, wish.colour) : Profile();
+  if (wish.colour == RodColour::moves) profile = moves_of(rod.equilibrium, wish.moves[&rod - eq.rods.data()]);
   // Fine enough for a smooth tube and a sharp colour border, coarse enough for a rod of a million segments.
   const double spacing = std::max(0.5 * tube.radius, design.length / 4000);
   double last = -design.length;
@@ -92,6 +101,25 @@ PictureTube compose_tube(const SceneEquilibrium& eq, const SolvedRod& rod, const
       tube.values.push_back(gap_at(eq, sample.frame.at, radius, alike));
   }
   return tube;
+}
+
+/// What is rigid at a branch point: from its place to every section that is joined at a distance.
+void add_branch_bodies(const SceneEquilibrium& eq, const SolvedSystem& system, std::vector<PictureTube>& tubes) {
+  for (std::size_t b = 0; b < system.branches.size(); ++b) {
+    const SolvedBranch& branch = eq.branches[system.branches[b]];
+    for (const JoinedSection& section : system.problem.branches[b].sections) {
+      const SolvedRod& rod = eq.rods[system.rods[section.rod]];
+      const Vec3 at = rod.equilibrium.frame_at(section.at).at;
+      const double radius = rod.problem.rod.section_at(section.at).radius();
+      if ((at - branch.frame.at).norm() < 0.01 * radius) continue;
+      PictureTube tube;
+      tube.name = branch.name;
+      tube.points = {branch.frame.at, at};
+      tube.radius = radius;
+      tube.colour = body_colour;
+      tubes.push_back(tube);
+    }
+  }
 }
 
 }  // namespace
@@ -118,6 +146,7 @@ std::vector<PictureTube> compose_tubes(const SceneEquilibrium& eq, const Picture
   const std::optional<double> alike = common_clearance(eq.obstacles);
   std::vector<PictureTube> tubes;
   for (const SolvedRod& rod : eq.rods) tubes.push_back(compose_tube(eq, rod, wish, alike));
+  for (const SolvedSystem& system : eq.systems) add_branch_bodies(eq, system, tubes);
   return tubes;
 }
 
@@ -128,6 +157,11 @@ ColourScale compose_scale(const SceneEquilibrium& eq, RodColour colour) {
     case RodColour::curvature:
       scale.name = "curvature";
       scale.unit = "1/m";
+      scale.low = 0;
+      break;
+    case RodColour::moves:
+      scale.name = "move within the tolerances";
+      scale.unit = "mm";
       scale.low = 0;
       break;
     case RodColour::tension:

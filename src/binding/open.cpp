@@ -13,9 +13,9 @@ void open_tendril(lua_State* L) {
   bind_curve(L);
   bind_scene(L);
   bind_branch(L);
-  bind_motion(L);
   bind_equilibrium(L);
   bind_gradient(L);
+  bind_method(L);
   bind_view(L);
   bind_study(L);
   bind_help(L);

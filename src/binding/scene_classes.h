@@ -8,6 +8,7 @@
 #include "geometry/curve.h"
 #include "scene/accuracy.h"
 #include "scene/explain.h"
+#include "scene/sampled_motion.h"
 #include "scene/scene.h"
 #include "scene/scene_gradient.h"
 #include "scene/scene_motion.h"
@@ -74,6 +75,7 @@ template <> inline constexpr const char* class_name<PlacedRodHandle> = "placed_r
 template <> inline constexpr const char* class_name<PlacedBranchHandle> = "placed_branch";
 template <> inline constexpr const char* class_name<SceneEquilibrium> = "equilibrium";
 template <> inline constexpr const char* class_name<SceneMotion> = "motion";
+template <> inline constexpr const char* class_name<SampledMotion> = "sampled_motion";
 template <> inline constexpr const char* class_name<SceneSnap> = "snap_through";
 template <> inline constexpr const char* class_name<SolvedBranch> = "solved_branch";
 template <> inline constexpr const char* class_name<Reaction> = "support";

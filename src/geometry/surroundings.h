@@ -19,7 +19,7 @@ struct Obstacle {
   std::variant<std::shared_ptr<const TriangleSurface>, Solid> shape;
   Frame pose;
   double clearance = 0;  ///< m, required: see ContactField
-  std::string name;      ///< for messages; may be empty
+  std::string name = {};      ///< for messages; may be empty
 };
 
 /// Obstacles as statics sees them. Distances to meshes are unsigned (open and thin sheets are walls from both sides), to

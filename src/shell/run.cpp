@@ -9,6 +9,7 @@
 #include <new>
 
 #include "base/error.h"
+#include "base/processes.h"
 #include "binding/lua_registry.h"
 #include "shell/arguments.h"
 #include "shell/history.h"
@@ -164,6 +165,8 @@ int run_session(int argc, char** argv, const Arguments& arguments) {
 }  // namespace
 
 int run(int argc, char** argv) {
+  // All of several processes run the script, one prints.
+  if (!is_first_process() && !std::freopen("/dev/null", "w", stdout)) return failed;
   const Terminal terminal = look_at_terminal();
   try {
     const Arguments arguments = parse_arguments(argc, argv);

@@ -9,7 +9,7 @@
 #include <cmath>
 
 #include "base/units.h"
-#include "method/variation/study.h"
+#include "method/variation/whole_study.h"
 
 namespace {
 

@@ -81,10 +81,10 @@ class Piped {
     in_ = -1;
   }
 
-  void interrupt_when_ready(std::chrono::milliseconds after) {
+  void signal_when_ready(int signal, std::chrono::milliseconds after) {
     read_until([this] { return outcome_.out.find("ready\n") != std::string::npos; });
     std::this_thread::sleep_for(after);
-    ::kill(child_, SIGINT);
+    ::kill(child_, signal);
   }
 
   Outcome finish() {
@@ -135,10 +135,14 @@ Outcome run(const std::vector<std::string>& arguments, const std::string& input,
   return program.finish();
 }
 
-Outcome run_and_interrupt(const std::vector<std::string>& arguments, std::chrono::milliseconds after) {
+Outcome run_and_signal(const std::vector<std::string>& arguments, int signal, std::chrono::milliseconds after) {
   Piped program(arguments, {});
-  program.interrupt_when_ready(after);
+  program.signal_when_ready(signal, after);
   return program.finish();
+}
+
+Outcome run_and_interrupt(const std::vector<std::string>& arguments, std::chrono::milliseconds after) {
+  return run_and_signal(arguments, SIGINT, after);
 }
 
 TerminalSession::TerminalSession(const std::vector<std::string>& arguments, const Environment& environment) {

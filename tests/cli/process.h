@@ -21,7 +21,10 @@ struct Outcome {
 /// Runs `tendril arguments...` to its end with `input` on standard input.
 Outcome run(const std::vector<std::string>& arguments, const std::string& input = "", const Environment& environment = {});
 
-/// Starts the program, sends SIGINT `after` it has printed a line "ready", and waits for its end.
+/// Starts the program, sends it a signal `after` it has printed a line "ready", and waits for its end.
+Outcome run_and_signal(const std::vector<std::string>& arguments, int signal, std::chrono::milliseconds after);
+
+/// The same with SIGINT.
 Outcome run_and_interrupt(const std::vector<std::string>& arguments, std::chrono::milliseconds after = {});
 
 /// The program on a terminal of its own, 100 columns wide.

@@ -102,7 +102,7 @@ Measures::Measures(const SceneEquilibrium& nominal, const Options& options) : no
       if (other.name == request.name) throw UsageError("method.variation: two measures are called '" + request.name + "'");
     add(nominal, request);
   }
-  if (!options.measures.empty()) return;
+  if (!options.measures.empty() || !options.measured) return;
   for (const std::string& name : usual_measures(nominal)) {
     MeasureRequest request;
     request.name = name;

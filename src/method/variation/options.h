@@ -79,6 +79,7 @@ struct Options {
   std::vector<Variable> vary;
   std::vector<Group> groups;
   std::vector<MeasureRequest> measures;  ///< empty: bend radius, tension, length and clearance of every rod
+  bool measured = true;   ///< false: no measures at all, where only the shapes are wanted
   int outcomes = 1000;
   Sampling sampling = Sampling::random;
   int replicates = 8;     ///< Sobol' points and Latin hypercubes: independent sets of them, from which the error is estimated

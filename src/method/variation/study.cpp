@@ -22,8 +22,7 @@ const Options& checked(const Options& options) {
   return options;
 }
 
-SceneEquilibrium solved_nominal(const Scene& scene, const Options& options, const RunContext& context) {
-  SceneEquilibrium nominal = scene.solve(options.solve, context);
+SceneEquilibrium checked(SceneEquilibrium nominal) {
   if (!nominal.ok()) throw UsageError("method.variation: the nominal equilibrium was not found: " + nominal.message());
   if (!nominal.stable()) throw UsageError("method.variation: the nominal equilibrium is not stable; solve it with stable_only");
   return nominal;
@@ -45,9 +44,9 @@ struct Study::Parts {
   mutable std::mutex guard;
   mutable std::optional<Eigen::MatrixXd> gradient;  ///< measures x columns
 
-  Parts(const Scene& scene, const Options& given, const RunContext& context)
+  Parts(SceneEquilibrium solved, const Options& given, const RunContext& context)
       : options(checked(given)),
-        nominal(solved_nominal(scene, options, context)),
+        nominal(checked(std::move(solved))),
         seed(context.seed),
         variables(nominal, options),
         measures(nominal, options),
@@ -107,7 +106,9 @@ struct Study::Parts {
 };
 
 Study::Study(const Scene& scene, Options options, const RunContext& context)
-    : parts_(std::make_unique<Parts>(scene, options, context)) {}
+    : Study(scene.solve(checked(options).solve, context), options, context) {}
+Study::Study(const SceneEquilibrium& nominal, Options options, const RunContext& context)
+    : parts_(std::make_unique<Parts>(nominal, options, context)) {}
 Study::Study(Study&&) noexcept = default;
 Study::~Study() = default;
 
@@ -117,6 +118,7 @@ const std::vector<Column>& Study::variables() const { return parts_->variables.c
 const std::vector<Column>& Study::measures() const { return parts_->measure_columns; }
 const std::vector<std::string>& Study::contributors() const { return parts_->contributors; }
 std::uint64_t Study::seed() const { return parts_->seed; }
+int Study::effect_numbers() const { return parts_->effect_numbers(); }
 
 // ---------------------------------------------------------------- outcomes
 
@@ -220,33 +222,6 @@ Contributions Study::contributions(const Outcomes& outcomes, int measure, const 
   attribution.add_regression(outcomes, measure);
   attribution.add_effects(outcomes, measure, parts.drawn);
   return attribution.finish();
-}
-
-std::string summary(const Outcomes& outcomes) {
-  std::string text = std::to_string(outcomes.size()) + (outcomes.size() == 1 ? " outcome" : " outcomes");
-  for (const OutcomeStatus status : {OutcomeStatus::failed, OutcomeStatus::jumped, OutcomeStatus::unsolved}) {
-    const std::vector<int> all = outcomes.all(status);
-    if (all.empty()) continue;
-    constexpr std::size_t most = 8;
-    text += ", " + std::to_string(all.size()) + " " + name_of(status) + " (";
-    for (std::size_t i = 0; i < std::min(most, all.size()); ++i) text += (i ? ", " : "") + std::to_string(all[i]);
-    text += all.size() > most ? ", ...)" : ")";
-  }
-  return text;
-}
-
-Result run(const Scene& scene, const Options& options, const OnOutcome& on_outcome, const RunContext& context) {
-  const auto start = std::chrono::steady_clock::now();
-  Result result;
-  auto study = std::make_shared<Study>(scene, options, context);
-  result.outcomes = study->run(0, options.outcomes, on_outcome, context);
-  result.study = study;
-  const bool whole = result.outcomes.count(OutcomeStatus::unsolved) == 0;
-  result.status = whole ? Status::solved : context.stop().value_or(Status::stalled);
-  result.ok = whole && result.outcomes.count(OutcomeStatus::failed) == 0;
-  result.message = summary(result.outcomes);
-  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  return result;
 }
 
 }  // namespace tendril::variation

@@ -45,6 +45,8 @@ class Study {
   /// ones, correlations that cannot be, tables of the wrong length, and a scene whose nominal equilibrium is not found or not
   /// stable.
   Study(const Scene& scene, Options options, const RunContext& context = {});
+  /// About an equilibrium that is there already, solved and stable, with the options it was solved with.
+  Study(const SceneEquilibrium& nominal, Options options, const RunContext& context = {});
   Study(Study&&) noexcept;
   ~Study();
 
@@ -54,6 +56,7 @@ class Study {
   const std::vector<Column>& measures() const;
   const std::vector<std::string>& contributors() const;
   std::uint64_t seed() const;
+  int effect_numbers() const;  ///< how many numbers of total effects a row has
 
   /// Solves outcomes first ... last - 1; parts of a study are put together by Outcomes::merged(). Stopped by the context it
   /// returns what is done, the rest unsolved; `on_outcome` is not called for those.
@@ -76,21 +79,5 @@ class Study {
   struct Parts;
   std::unique_ptr<Parts> parts_;
 };
-
-/// A whole study.
-struct Result {
-  bool ok = false;          ///< every outcome has its measures
-  Status status = Status::stalled;  ///< solved: none is left unsolved, though some may have failed or jumped
-  std::string message;      ///< "1000 outcomes, 3 failed (12, 77, 512), 1 jumped (901)"
-  double seconds = 0;
-  std::shared_ptr<const Study> study;
-  Outcomes outcomes;
-};
-
-/// Throws UsageError as Study does.
-Result run(const Scene& scene, const Options& options, const OnOutcome& on_outcome = {}, const RunContext& context = {});
-
-/// "1000 outcomes, 3 failed (12, 77, 512), 1 jumped (901)".
-std::string summary(const Outcomes& outcomes);
 
 }  // namespace tendril::variation

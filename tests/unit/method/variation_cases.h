@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/units.h"
-#include "method/variation/study.h"
+#include "method/variation/whole_study.h"
 
 namespace tendril::testing {
 

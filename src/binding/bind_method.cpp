@@ -1,0 +1,20 @@
+#include "binding/bind_method.h"
+
+#include "binding/bind_envelope.h"
+#include "binding/bind_motion.h"
+#include "binding/open.h"
+
+namespace tendril::lua {
+
+void bind_method(lua_State* L) {
+  const auto builder = std::make_shared<EnvelopeBuilder>();
+  bind_envelope(L);
+  bind_motion(L, builder);
+  bind_stability(L);
+  bind_variation(L, builder);
+  Module method(L, "method", "What engineers do with scenes: analyses and searches that take a scene and never change it");
+  add_stability_to(method);
+  add_variation_to(method);
+}
+
+}  // namespace tendril::lua

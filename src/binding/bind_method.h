@@ -1,0 +1,16 @@
+// method: what engineers do with scenes. Each method binds in a file of its own.
+#pragma once
+
+#include <memory>
+
+#include "binding/lua_class.h"
+#include "method/envelope/envelope.h"
+
+namespace tendril::lua {
+
+void bind_stability(lua_State* L);
+void bind_variation(lua_State* L, const std::shared_ptr<EnvelopeBuilder>& builder);
+void add_stability_to(Module& method);
+void add_variation_to(Module& method);
+
+}  // namespace tendril::lua
