@@ -1,4 +1,5 @@
-# Runs one study into an empty folder; its pictures must appear as whole PNG files and nothing else may.
+# Runs one study into an empty folder; its pictures must appear as whole PNG files, other files that it is
+# said to write must appear too, and nothing else may.
 file(REMOVE_RECURSE ${OUT})
 execute_process(COMMAND ${TENDRIL} ${STUDY} ${ARGUMENTS} out=${OUT} RESULT_VARIABLE result OUTPUT_VARIABLE output)
 message(STATUS "${output}")
@@ -10,9 +11,10 @@ if(output MATCHES "skipped: ")
 endif()
 file(GLOB written RELATIVE ${OUT} ${OUT}/*)
 list(SORT written)
-list(SORT PICTURES)
-if(NOT written STREQUAL PICTURES)
-  message(FATAL_ERROR "the study wrote '${written}', expected '${PICTURES}'")
+set(expected ${PICTURES} ${FILES})
+list(SORT expected)
+if(NOT written STREQUAL expected)
+  message(FATAL_ERROR "the study wrote '${written}', expected '${expected}'")
 endif()
 foreach(picture ${PICTURES})
   file(READ ${OUT}/${picture} start LIMIT 8 HEX)
