@@ -7,14 +7,23 @@
 namespace tendril {
 namespace {
 
+/// Whether a b > c d, exactly for all but numbers near the smallest that there are.
+bool product_greater(double a, double b, double c, double d) {
+  const double ab = a * b, cd = c * d;
+  if (ab != cd) return ab > cd;
+  constexpr double up = 0x1p400;  // keeps what the products lose from being lost again
+  const double p = (up * a) * (up * b), q = (up * c) * (up * d);
+  return p != q ? p > q : std::fma(up * a, up * b, -p) > std::fma(up * c, up * d, -q);
+}
+
 /// The side of the line a-b, seen along x, that p lies on. The same pair of places gives the same bits in either order
-/// but for the sign, and a point on the line counts to one side for both orders.
+/// but for the sign, and a point on the line counts to one side for both orders. A corner enters by its rounded difference
+/// from p alone, which is the same for all triangles there: the ray meets one closed surface, moved by less than rounding.
 bool left_of(const std::vector<Vec3>& vertices, int a, int b, const Vec3& p) {
   const bool swapped = std::pair(vertices[a].y(), vertices[a].z()) > std::pair(vertices[b].y(), vertices[b].z());
   if (swapped) std::swap(a, b);
   const Vec3 &u = vertices[a], &v = vertices[b];
-  const double area = (v.y() - u.y()) * (p.z() - u.z()) - (v.z() - u.z()) * (p.y() - u.y());
-  return (area > 0) != swapped;
+  return product_greater(u.y() - p.y(), v.z() - p.z(), u.z() - p.z(), v.y() - p.y()) != swapped;
 }
 
 bool ray_crosses(const Mesh& mesh, int triangle, const Vec3& p) {
@@ -22,10 +31,12 @@ bool ray_crosses(const Mesh& mesh, int triangle, const Vec3& p) {
   const bool side = left_of(mesh.vertices, a, b, p);
   if (left_of(mesh.vertices, b, c, p) != side || left_of(mesh.vertices, c, a, p) != side) return false;
   const Vec3& corner = mesh.vertices[a];
+  const auto [least, most] = std::minmax({corner.x(), mesh.vertices[b].x(), mesh.vertices[c].x()});
+  if (p.x() < least || p.x() > most) return p.x() < least;
   const Vec3 normal = (mesh.vertices[b] - corner).cross(mesh.vertices[c] - corner);
-  // Where the plane is hit along +x: p + t x, t n_x = n . (corner - p).
+  // Where the plane is hit along +x: p + t x, t n_x = n . (corner - p); n_x > 0 where p is left of all sides.
   const double ahead = normal.dot(corner - p);
-  return normal.x() > 0 ? ahead > 0 : normal.x() < 0 && ahead < 0;
+  return side ? ahead > 0 : ahead < 0;
 }
 
 }  // namespace

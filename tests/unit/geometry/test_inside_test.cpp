@@ -30,3 +30,21 @@ TEST_CASE("inside: the share of random points is the mesh's volume", "[inside]")
     CHECK(test.inside(p) == (std::abs(local.x()) < 1 && std::abs(local.y()) < 0.5 && std::abs(local.z()) < 0.7));
   }
 }
+
+TEST_CASE("inside: rays that miss a vertex by less than its rounding", "[inside]") {
+  // Far less than the other coordinates are known to, so that p - corner is the same for most corners, but not for all.
+  Mesh ball = test::box_mesh({1, 1, 1}, 8);
+  for (Vec3& vertex : ball.vertices) vertex *= 0.013 / vertex.norm();
+  const InsideTest test(ball);
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> exponent(-60, -16), sign(-1, 1);
+  int wrong = 0;
+  for (const Vec3& vertex : ball.vertices)
+    for (int i = 0; i < 20; ++i) {
+      const auto tiny = [&] { return std::copysign(std::pow(10, exponent(random)), sign(random)); };
+      const Vec3 p(0.5 * vertex.x(), vertex.y() + tiny(), vertex.z() + tiny());
+      wrong += std::abs(vertex.x()) > 1e-3 && !test.inside(p);
+      wrong += test.inside(p + Vec3(std::copysign(0.02, vertex.x()), 0, 0));
+    }
+  CHECK(wrong == 0);
+}
