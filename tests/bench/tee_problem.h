@@ -30,22 +30,40 @@ inline SystemProblem tee(int segments) {
   return system;
 }
 
-/// Lengths within 50 mm, connections within a cone of 15 degrees.
-inline Batch::Fill tee_outcomes(const SystemProblem& nominal) {
-  return [&nominal](int outcome, SystemProblem& problem) {
+/// A harness of several such T pieces side by side, 0.15 m apart, solved as one system.
+inline SystemProblem tees(int count, int segments) {
+  SystemProblem all;
+  for (int i = 0; i < count; ++i) {
+    SystemProblem one = tee(segments);
+    const Vec3 by(0, 0, 0.15 * i);
+    for (RodProblem& hose : one.rods) {
+      hose.holds[0].frame.at += by;
+      all.rods.push_back(std::move(hose));
+    }
+    one.branches[0].frame.at += by;
+    for (auto& section : one.branches[0].sections) section.rod += 3 * i;
+    all.branches.push_back(std::move(one.branches[0]));
+  }
+  return all;
+}
+
+/// Lengths within 50 mm, connections within a cone of 15 degrees, unless others are given (m, degrees).
+inline Batch::Fill tee_outcomes(const SystemProblem& nominal, double within_length = 0.05, double within_angle = 15) {
+  return [&nominal, within_length, within_angle](int outcome, SystemProblem& problem) {
     std::minstd_rand random(outcome + 1);
     random.discard(8);
     auto within = [&](double most) { return std::uniform_real_distribution<double>(-most, most)(random); };
-    for (int k = 0; k < 3; ++k) {
+    for (std::size_t k = 0; k < problem.rods.size(); ++k) {
       RodProblem& hose = problem.rods[k];
-      const double length = 0.5 + within(0.05);
+      const double length = 0.5 + within(within_length);
       hose.rod.length = hose.rod.parts[0].upto = length;
-      if (k > 0) hose.holds[0].at = length;
-      const double direction = within(units::pi), angle = 15 * units::pi / 180 * std::sqrt(std::abs(within(1)));
+      if (k % 3 > 0) hose.holds[0].at = length;
+      const double direction = within(units::pi), angle = within_angle * units::pi / 180 * std::sqrt(std::abs(within(1)));
       hose.holds[0].frame.rotation = nominal.rods[k].holds[0].frame.rotation *
                                      exp_rotation({angle * std::cos(direction), angle * std::sin(direction), 0});
     }
-    problem.branches[0].sections[0].at = problem.rods[0].rod.length;
+    for (std::size_t k = 0; k < problem.branches.size(); ++k)
+      problem.branches[k].sections[0].at = problem.rods[3 * k].rod.length;
   };
 }
 
