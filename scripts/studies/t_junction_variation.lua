@@ -74,7 +74,7 @@ study.sheet{
 }:save(given.out .. "/t_junction_charts.png")
 
 -- The space that each kind of tolerance needs by itself.
-for _, part in ipairs{{"lengths", lengths, "lengths within 50 mm"}, {"cones", cones, "connections within cones of 15 degrees"}} do
+for _, part in ipairs{{"lengths", lengths, "lengths within 50 mm"}, {"cones", cones, "cones of 15 degrees"}} do
   local name, vary, words = table.unpack(part)
   local mesh, about = method.variation(bay, {vary = vary, outcomes = outcomes, seed = 7}):envelope{resolution = 2 * mm}
   print("envelope of " .. words)

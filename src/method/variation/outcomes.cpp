@@ -131,7 +131,7 @@ std::string Outcomes::csv() const {
       text += "," + cell(column.unit.empty() ? column.name : column.name + " [" + column.unit + "]");
   text += ",message\n";
   for (int k = first(); k < last(); ++k) {
-    text += std::to_string(k) + "," + name_of(status(k));
+    text += std::to_string(k + 1) + "," + name_of(status(k));
     for (const std::span<const double> row : {variables_of(k), measures_of(k)})
       for (const double value : row) {
         text += ",";

@@ -65,7 +65,7 @@ class Outcomes {
   /// The values of one measure in all outcomes that have it, in order.
   std::vector<double> column(int measure) const;
 
-  /// Comma-separated, a header line with units: outcome, status, variables, measures, message.
+  /// Comma-separated, a header line with units: outcome (counted from 1), status, variables, measures, message.
   std::string csv() const;
 
  private:

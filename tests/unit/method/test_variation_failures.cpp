@@ -355,9 +355,9 @@ TEST_CASE("outcomes: a table puts its parts together and writes itself", "[varia
   const Outcomes all = Outcomes::merged(backwards);
   CHECK(all.csv() ==
         "outcome,status,hose.length [m],\"gap, least [mm]\",message\n"
-        "0,solved,1.5,2.25,\n"
-        "1,failed,1.5,,\"no \"\"equilibrium\"\", alas\"\n"
-        "2,jumped,2.25,1.5,snaps\n");
+        "1,solved,1.5,2.25,\n"
+        "2,failed,1.5,,\"no \"\"equilibrium\"\", alas\"\n"
+        "3,jumped,2.25,1.5,snaps\n");
   CHECK(all.column(0) == std::vector<double>{2.25, 1.5});
   const Outcomes twice[] = {a, a}, hole[] = {a, Outcomes(3, 1, variables, measures, 0)},
                  others[] = {a, Outcomes(2, 1, measures, measures, 0)};
