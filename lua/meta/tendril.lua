@@ -367,6 +367,7 @@ local energy_methods = {}
 ---@field at vec Place on the centre line (m)
 ---@field force vec On the rod, world axes (N)
 ---@field gap number Between the surfaces; negative: penetration (m)
+---@field length number Of the rod that it stands for (m)
 ---@field on string Name of the obstacle
 ---@field rod string Name of the rod
 ---@field s number Arc length (m)
@@ -392,6 +393,7 @@ local solved_branch_methods = {}
 ---@field arc_lengths (number)[] Of the vertices, unstressed (m)
 ---@field bend_radius (number)[] At the vertices (m)
 ---@field clearance clearance Smallest gap to any obstacle (m)
+---@field contact_length number Of the rod that the surroundings press on (m)
 ---@field contacts (contact)[] Forces of the surroundings on it
 ---@field design rod What it is
 ---@field frames (frame)[] Sections at the vertices
@@ -1041,7 +1043,7 @@ function method.stability(scene, options) end
 ---@class (exact) tendril.method.variation.options
 ---@field vary table<string, number|{tolerance: number?, relative: boolean?, ball: number?, box: vec?, cone: number?, twist: number?, spread: string|function?, sigma: number?, values: number[]?, frames: frame[]?}> Which numbers vary, by name ("hose.length", "hose.from", "hose.section.EI", "gravity", "tee"), and how
 ---@field together? ({[integer]: string, correlation: number|number[][]})[] Variables that depend on each other: {{"a.length", "b.length", correlation = 0.8}}
----@field measure? table<integer|string, string|function|{rod: string, what: string, at: number|string?, along: vec?, to: string?}> What is measured on every outcome; default: bend radius, tension, length and clearance of every rod
+---@field measure? table<integer|string, string|function|{rod: string, what: string, at: number|string?, along: vec?, to: string?}> What is measured on every outcome: names as in eq.measures or "hose.contact_length"; default: bend radius, tension, length and clearance of every rod
 ---@field outcomes? integer How many (1 ... 100000000; default 1000)
 ---@field sampling? "random"|"sobol"|"latin" How outcomes fill the space of the variables (default "random")
 ---@field replicates? integer Of Sobol' points and Latin hypercubes: independent sets, which give the intervals (2 ... 1024; default 8)

@@ -99,6 +99,7 @@ void bind_values(lua_State* L) {
       .property("at", "m", "Place on the centre line", [](const ContactHandle& c) { return c.force.point; })
       .property("force", "N", "On the rod, world axes", [](const ContactHandle& c) { return c.force.force; })
       .property("gap", "m", "Between the surfaces; negative: penetration", [](const ContactHandle& c) { return c.force.gap; })
+      .property("length", "m", "Of the rod that it stands for", [](const ContactHandle& c) { return c.force.length; })
       .tostring(describe_contact);
 }
 
@@ -140,6 +141,7 @@ void bind_solved_rod(lua_State* L) {
                 [](const SolvedRodHandle& r) { return clearance_value(*r.equilibrium, r.rod(), r.equilibrium->clearance(r.rod())); })
       .property("supports", "", "What its holds, in the order they were given, and branch points do to it",
                 [](const SolvedRodHandle& r) { return r.rod().equilibrium.reactions; })
+      .property("contact_length", "m", "Of the rod that the surroundings press on", [](const SolvedRodHandle& r) { return r.rod().equilibrium.contact_length(); })
       .property("contacts", "", "Forces of the surroundings on it", [](const SolvedRodHandle& r) { return contacts_of(*r.equilibrium, r.rod()); })
       .method("at", {.takes = {"s"}, .does = "The section's frame at an arc length in m.",
                          .example = with_equilibrium("print(eq:rod(\"hose\"):at(0.5).at)")},

@@ -194,7 +194,10 @@ variation::MeasureRequest request_of(lua_State* L, const SceneEquilibrium* nomin
       request.built_in = scene_measure(*nominal, *table);
       request.built_in->name = name;
     }
-  } else if (const std::string& wanted = std::get<std::string>(entry); wanted != name) {
+  } else if (const std::string& wanted = std::get<std::string>(entry); !variation::rod_of_contact_length(wanted).empty()) {
+    request.rod = variation::rod_of_contact_length(wanted);
+    request.contact_length = true;
+  } else if (wanted != name) {
     request.built_in = named_measure(*nominal, wanted);
     request.built_in->name = name;
   }
@@ -209,7 +212,7 @@ Schema variation_schema() {
                  "vary", "", "Which numbers vary, by name (\"hose.length\", \"hose.from\", \"hose.section.EI\", \"gravity\", \"tee\"), and how")
                  .required(),
              option<std::vector<TogetherTable>>("together", "", "Variables that depend on each other: {{\"a.length\", \"b.length\", correlation = 0.8}}"),
-             option<MeasureList>("measure", "", "What is measured on every outcome; default: bend radius, tension, length and "
+             option<MeasureList>("measure", "", "What is measured on every outcome: names as in eq.measures or \"hose.contact_length\"; default: bend radius, tension, length and "
                                                 "clearance of every rod"),
              option<int>("outcomes", "", "How many").at_least(1).at_most(1e8).preset(1000),
              option<std::string>("sampling", "", "How outcomes fill the space of the variables").one_of(samplings).preset("random"),
@@ -243,7 +246,8 @@ variation::Options variation_options(lua_State* L, const Scene& scene, const Opt
   std::optional<SceneEquilibrium> nominal;
   for (const auto& [name, entry] : list.entries) {
     const std::string* text = std::get_if<std::string>(&entry);
-    const bool lookup = std::holds_alternative<MeasureTable>(entry) || (text && *text != name);
+    const bool lookup = std::holds_alternative<MeasureTable>(entry) ||
+                        (text && *text != name && variation::rod_of_contact_length(*text).empty());
     if (lookup && !nominal) nominal = scene.solve(options.solve, run_context(L));
     options.measures.push_back(request_of(L, nominal ? &*nominal : nullptr, name, entry));
   }

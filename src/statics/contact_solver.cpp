@@ -222,7 +222,7 @@ void ContactSolver::describe(const RodState& state, int rod, Equilibrium& out) {
     const PointContact* c = set.at(i);
     if (!c || c->gradient.isZero(0)) continue;
     const ContactPoint& p = set.points()[i];
-    out.contacts.push_back({p.s, set.positions()[i], -c->gradient, set.surface_distance(i) - p.radius, c->obstacle});
+    out.contacts.push_back({p.s, set.positions()[i], -c->gradient, set.surface_distance(i) - p.radius, c->obstacle, p.weight});
     // What the shift adds is bookkeeping of the method, not stored energy.
     out.energy.contact += p.weight * set.law.at(p.radius - c->distance).energy;
   }
@@ -230,7 +230,7 @@ void ContactSolver::describe(const RodState& state, int rod, Equilibrium& out) {
     const PointContact& c = p.contact;
     if (!p.active || c.gradient.isZero(0)) continue;
     const double gap = c.distance + std::min(set.field().clearance(c.obstacle), p.at.keep) - p.at.radius;
-    out.contacts.push_back({p.at.s, p.x, -c.gradient, gap, c.obstacle});
+    out.contacts.push_back({p.at.s, p.x, -c.gradient, gap, c.obstacle, p.at.weight});
     out.energy.contact += p.at.weight * set.law.at(p.at.radius - c.distance).energy;
   }
   std::sort(out.contacts.begin(), out.contacts.end(), [](const ContactForce& a, const ContactForce& b) { return a.s < b.s; });

@@ -5,6 +5,12 @@
 
 namespace tendril {
 
+double Equilibrium::contact_length() const {
+  double sum = 0;
+  for (const ContactForce& contact : contacts) sum += contact.length;
+  return sum;
+}
+
 Frame Equilibrium::frame_at(double arc_length) const {
   const auto above = std::upper_bound(s.begin(), s.end(), arc_length);
   const int i = std::clamp<int>(static_cast<int>(above - s.begin()) - 1, 0, static_cast<int>(s.size()) - 2);

@@ -24,6 +24,7 @@ struct ContactForce {
   Vec3 force;      ///< N, on the rod
   double gap;      ///< distance of the surfaces, m; negative: penetration
   int obstacle;
+  double length = 0;  ///< m of the rod that it stands for
 };
 
 /// What a support exerts on the rod at a hold, in world axes, the moment about the centre-line point of the hold.
@@ -80,6 +81,7 @@ struct Equilibrium {
 
   /// The section's frame at an arc length (cubic between vertices).
   Frame frame_at(double arc_length) const;
+  double contact_length() const;  ///< m of the rod that the surroundings press on
 
   double smallest_bend_radius() const;  ///< m; infinity for a straight rod
   double largest_tension() const;       ///< N, force along d3; negative: compression everywhere

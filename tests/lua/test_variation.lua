@@ -117,6 +117,29 @@ check.case("variation: variables that depend on each other", function()
   end, "correlation")
 end)
 
+check.case("variation: the length in contact is that of outcomes that touch, and zero for the others", function()
+  local s = hanging()
+  s:obstacle("floor", scene.plane(), {pose = frame {at = {0, 0, -0.235}, along = {0, 0, 1}}})
+  local v = method.variation(s, {vary = {["hose.length"] = {tolerance = 80 * mm, spread = "uniform"}}, outcomes = 60,
+    measure = {"hose.contact_length", "hose.clearance", touching = "hose.contact_length", by_hand = function(eq)
+      local sum = 0
+      for _, c in ipairs(eq.contacts) do sum = sum + c.length end
+      return sum
+    end}})
+  check.is_true(v.ok, v.message)
+  local touch, free = 0, 0
+  for _, o in ipairs(v.outcomes) do
+    local m = o.measures
+    check.near(m["hose.contact_length"], m.touching, 0)
+    check.near(m["hose.contact_length"], m.by_hand, 1e-12)
+    if m.touching > 0 then touch = touch + 1 else free = free + 1 end
+    check.is_true((m.touching > 0) == (m["hose.clearance"] < 1e-5), m.touching .. " m touch, gap " .. m["hose.clearance"])
+    check.is_true(m.touching < 0.6)
+  end
+  check.is_true(touch > 5 and free > 5, touch .. " touch, " .. free .. " do not")
+  check.raises(function() method.variation(s, {vary = {["hose.length"] = 1 * mm}, measure = {"hoze.contact_length"}}) end, "did you mean 'hose'")
+end)
+
 check.case("variation: charts", function()
   local s = hanging()
   local v = method.variation(s, {vary = {["hose.length"] = 10 * mm}, measure = {sag = lowest}, outcomes = 100})

@@ -96,6 +96,12 @@ double value_on_branch(const Measure& m, const SystemOutcome& outcome) {
 
 }  // namespace
 
+std::string rod_of_contact_length(const std::string& measure) {
+  const std::string end = ".contact_length";
+  const bool has = measure.size() > end.size() && measure.compare(measure.size() - end.size(), end.size(), end) == 0;
+  return has ? measure.substr(0, measure.size() - end.size()) : "";
+}
+
 Measures::Measures(const SceneEquilibrium& nominal, const Options& options) : nominal_(nominal) {
   for (const MeasureRequest& request : options.measures) {
     for (const Column& other : columns_)
@@ -123,6 +129,16 @@ void Measures::add_clearance(const SceneEquilibrium& nominal, const std::string&
   columns_.push_back({name, "m", 0, -1});
 }
 
+void Measures::add_contact_length(const SceneEquilibrium& nominal, const std::string& name, const std::string& rod) {
+  Entry entry;
+  entry.kind = Entry::Kind::contact_length;
+  const auto [system, index] = place_of_rod(nominal, rod);
+  entry.measure.system = system;
+  entry.measure.measure.rod = index;
+  entries_.push_back(std::move(entry));
+  columns_.push_back({name, "m", 0, -1});
+}
+
 void Measures::add(const SceneEquilibrium& nominal, const MeasureRequest& request) {
   const std::string who = "method.variation: measure '" + request.name + "'";
   if (request.name.empty()) throw UsageError("method.variation: a measure has no name");
@@ -136,11 +152,13 @@ void Measures::add(const SceneEquilibrium& nominal, const MeasureRequest& reques
     columns_.push_back({request.name, request.unit, 0, -1});
     return;
   }
+  if (request.contact_length) return add_contact_length(nominal, request.name, request.rod);
   if (!request.rod.empty()) return add_clearance(nominal, request.name, request.rod, request.to);
   Entry entry;
   if (request.built_in) {
     entry.measure = *request.built_in;
   } else {
+    if (const std::string rod = rod_of_contact_length(request.name); !rod.empty()) return add_contact_length(nominal, request.name, rod);
     const std::vector<SceneMeasure> all = measures_of(nominal);
     const auto found = std::find_if(all.begin(), all.end(), [&](const SceneMeasure& m) { return m.name == request.name; });
     if (found != all.end() && found->measure.what == What::gap)
@@ -208,6 +226,11 @@ void Measures::read(int system, const SystemOutcome& outcome, std::span<double> 
     const Measure& m = entry.measure.measure;
     if (entry.kind == Entry::Kind::clearance) {
       values[k] = clearance(entry, outcome);
+      continue;
+    }
+    if (entry.kind == Entry::Kind::contact_length) {
+      // Outcomes of a batch touch nothing.
+      values[k] = outcome.equilibrium ? outcome.equilibrium->rods[m.rod].contact_length() : 0;
       continue;
     }
     switch (m.what) {

@@ -42,7 +42,7 @@ class Measures {
 
  private:
   struct Entry {
-    enum class Kind { built_in, clearance, function } kind = Kind::built_in;
+    enum class Kind { built_in, clearance, contact_length, function } kind = Kind::built_in;
     SceneMeasure measure;
     int obstacle = -1;
     bool at_finish = false;
@@ -50,6 +50,7 @@ class Measures {
   };
   void add(const SceneEquilibrium& nominal, const MeasureRequest& request);
   void add_clearance(const SceneEquilibrium& nominal, const std::string& name, const std::string& rod, const std::string& to);
+  void add_contact_length(const SceneEquilibrium& nominal, const std::string& name, const std::string& rod);
   double clearance(const Entry& entry, const SystemOutcome& outcome) const;
 
   std::vector<Column> columns_;

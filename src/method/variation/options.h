@@ -61,9 +61,13 @@ struct MeasureRequest {
   std::string name;                      ///< in the result; alone: a measure of scene_gradient.h
   std::optional<SceneMeasure> built_in;  ///< one without a name there: a position or a tension at an arc length
   std::string rod, to;                   ///< the clearance from a rod to one obstacle
+  bool contact_length = false;           ///< of `rod`, instead of its clearance: the length that obstacles press on
   std::function<double(const SceneEquilibrium&)> function;  ///< called in the order of outcomes on the thread that runs the study
   std::string unit;                      ///< of the function's values
 };
+
+/// The rod whose length in contact a measure's name asks for ("hose.contact_length"); empty for other names.
+std::string rod_of_contact_length(const std::string& measure);
 
 /// How outcomes fill the space of the variables.
 enum class Sampling {
