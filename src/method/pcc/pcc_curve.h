@@ -1,0 +1,44 @@
+// Piecewise constant curvature (thesis 3.2, figure 3.4): straights joined by circular arcs that fillet the vertices between.
+//
+//   first vertex = start + first * start direction,  last vertex = finish - last * finish direction
+//   length = sum |edges| - sum over vertices R (2 tan(turn/2) - turn)
+#pragma once
+
+#include <vector>
+
+#include "base/frame.h"
+#include "geometry/curve.h"
+
+namespace tendril::routing {
+
+/// A place and a unit direction at either end.
+struct Ends {
+  Vec3 start = Vec3::Zero(), start_along = Vec3::UnitX();
+  Vec3 finish = Vec3::Zero(), finish_along = Vec3::UnitX();
+};
+
+/// Ends and vertices; one radius (m) for each vertex. With two points it is a straight.
+struct PccPoints {
+  std::vector<Vec3> points;
+  std::vector<double> radii;
+
+  int bends() const { return static_cast<int>(radii.size()); }
+  double length() const;         ///< m
+  Curve curve() const { return Curve::pcc(points, radii); }
+};
+
+/// One straight or arc, in order along the curve.
+struct PccPiece {
+  bool is_arc = false;
+  double begin = 0, length = 0;   ///< m, arc lengths
+  Vec3 start, finish;             ///< m
+  Vec3 start_along, finish_along; ///< unit
+  double radius = 0, turn = 0;    ///< of an arc: m, rad
+  Vec3 axis = Vec3::Zero();       ///< of the turn, unit; zero for a straight
+  Vec3 at(double share) const;    ///< 0 ... 1
+};
+
+/// All pieces of positive length. Straights shorter than 1e-12 of the whole are left out.
+std::vector<PccPiece> pieces_of(const PccPoints& points);
+
+}  // namespace tendril::routing

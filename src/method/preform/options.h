@@ -1,0 +1,62 @@
+// What method.preform is asked, and what it answers.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "method/free_space/free_space.h"
+#include "method/pcc/pcc_check.h"
+#include "method/pcc/pcc_demands.h"
+
+namespace tendril::preform {
+
+using routing::Ends;
+using routing::FreeSpace;
+using routing::PccPoints;
+
+struct Options {
+  Ends ends;
+  routing::SpaceDemands space;
+  routing::PccDemands curve;
+  int max_bends = 6;
+  double grid = 20e-3;            ///< m, step of the roadmap
+  double exclusion = 60e-3;       ///< m, around each path that was found
+  double exclusion_ends = 120e-3; ///< m, around the ends, where nothing is excluded
+  int max_paths = 30;
+  double same = 25e-3;            ///< m: curves nearer than this all along are the same
+};
+
+/// One line of result.steps.
+struct Step {
+  std::string name;
+  double seconds = 0;
+  std::vector<std::pair<std::string, long>> counts;
+};
+
+/// One design.
+struct Hose {
+  PccPoints points;
+  double length = 0, objective = 0;  ///< m
+  routing::CurveGap clearance;       ///< its value: m, between the surfaces (the clearance demanded is not taken off)
+  std::string clearance_to;          ///< obstacle's name; empty: nothing within reach
+  int passage = 0;                   ///< hoses with the same number are known to be deformable into each other
+  std::string label;                 ///< what sets it apart: "4 bends, other side of 'battery'"
+};
+
+struct Result {
+  bool ok = false;
+  Status status = Status::stalled;   ///< solved, infeasible, cancelled, timeout
+  std::string message;
+  double seconds = 0;
+  std::vector<Step> steps;
+  std::vector<Hose> hoses;           ///< the best first
+  int passages = 0;
+  /// The nearest misses where nothing is feasible: which demand, where, by how much.
+  std::vector<std::string> near_misses;
+  /// For who settles or draws them.
+  Options options;
+};
+
+}  // namespace tendril::preform
