@@ -8,6 +8,7 @@
 #include "binding/open.h"
 #include "binding/card.h"
 #include "binding/scene_cards.h"
+#include "scene/formed_rod.h"
 
 namespace tendril::lua {
 
@@ -135,27 +136,11 @@ std::vector<RodPart> parts_of(const SectionOrParts& given, double length) {
   return std::get<std::vector<RodPart>>(given);
 }
 
-/// A rod's shape that remembers the curve it came from.
-struct CurveShape {
-  Curve curve;
-  Frame operator()(double s) const { return curve.at(std::clamp(s, 0.0, curve.length())); }
-};
-
 void put_shape(Rod& rod, const Curve& curve, const Options& o) {
   if (o.has("length") && std::abs(o.get<double>("length") - curve.length()) > 1e-9 * curve.length())
     throw UsageError(o.who() + ": 'length' is " + plain_number(o.get<double>("length")) + " m but 'shape' is " +
                      plain_number(curve.length()) + " m long; a preformed rod is as long as its curve, leave 'length' out");
-  rod.length = curve.length();
-  rod.shape = CurveShape{curve};
-  rod.shape_breaks = curve.breaks();
-}
-
-/// A tube cannot be bent about an axis inside itself; a corner is the extreme of that.
-void check_shape(const Rod& rod, const Curve& curve, const Options& o) {
-  if (curve.min_bend_radius() <= rod.section_at(curve.min_bend_radius_at()).radius())
-    throw UsageError(o.who() + ": 'shape' bends with a radius of " + quantity(curve.min_bend_radius(), "m") + " at s = " +
-                     quantity(curve.min_bend_radius_at(), "m") + ", expected more than the rod's own radius" +
-                     (curve.min_bend_radius() == 0 ? "; round its corners with curve.pcc" : ""));
+  form(rod, curve);
 }
 
 Rod make_rod(const Options& o) {
@@ -167,7 +152,7 @@ Rod make_rod(const Options& o) {
   else throw UsageError("rod.new: 'length' is missing (or 'shape', whose length it then has)");
   rod.parts = parts_of(o.get<SectionOrParts>("section"), rod.length);
   rod.check();
-  if (curve) check_shape(rod, *curve, o);
+  if (curve) check_bends(rod, *curve, o.who());
   return rod;
 }
 
@@ -186,7 +171,7 @@ Rod changed_rod(const Rod& old, const Options& o) {
   else if (rod.length != old.length)  // parts keep their share of the length
     for (RodPart& part : rod.parts) part.upto = &part == &rod.parts.back() ? rod.length : part.upto * rod.length / old.length;
   rod.check();
-  if (curve) check_shape(rod, *curve, o);
+  if (curve) check_bends(rod, *curve, o.who());
   return rod;
 }
 
@@ -220,9 +205,8 @@ void bind_design(lua_State* L) {
       .property("section", "", "Cross-section, the first when there are several", [](const Rod& r) { return r.parts.front().section; })
       .property("sections", "", "List of {upto =, section} along the rod", [](const Rod& r) { return r.parts; })
       .property("shape", "", "Unstressed shape; nil when straight", [](const Rod& r) -> std::optional<Curve> {
-        const CurveShape* shape = r.shape.target<CurveShape>();
-        if (!shape) return std::nullopt;
-        return shape->curve;
+        const Curve* curve = curve_of(r);
+        return curve ? std::optional<Curve>(*curve) : std::nullopt;
       })
       .method("section_at", {.takes = {"s"}, .does = "The section at an arc length in m.",
                          .example = with_hose("print(r:section_at(0.5).outer)  --> 0.02")},

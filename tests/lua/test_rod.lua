@@ -118,7 +118,7 @@ check.case("a preformed rod has the length of its curve", function()
   check.raises(function() rod.new {section = tube, shape = bow, length = 2} end, "'length' is 2 m", "'shape'")
   check.raises(function() r:with {length = 2} end, "preformed")
   check.raises(function() rod.new {section = tube, shape = curve.polyline {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}} end,
-    "'shape' bends with a radius of 0 m", "curve.pcc")
+    "'shape' bends with a radius of 0 mm", "curve.pcc")
   check.raises(function() rod.new {section = tube, shape = curve.pcc {points = bow.points, radius = 5 * mm}} end, "5 mm")
 end)
 

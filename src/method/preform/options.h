@@ -9,6 +9,7 @@
 #include "method/free_space/free_space.h"
 #include "method/pcc/pcc_check.h"
 #include "method/pcc/pcc_demands.h"
+#include "method/step.h"
 
 namespace tendril::preform {
 
@@ -28,13 +29,6 @@ struct Options {
   double same = 25e-3;            ///< m: curves nearer than this all along are the same
 };
 
-/// One line of result.steps.
-struct Step {
-  std::string name;
-  double seconds = 0;
-  std::vector<std::pair<std::string, long>> counts;
-};
-
 /// One design.
 struct Hose {
   PccPoints points;
@@ -50,13 +44,13 @@ struct Result {
   Status status = Status::stalled;   ///< solved, infeasible, cancelled, timeout
   std::string message;
   double seconds = 0;
-  std::vector<Step> steps;
+  std::vector<MethodStep> steps;
   std::vector<Hose> hoses;           ///< the best first
   int passages = 0;
   /// The nearest misses where nothing is feasible: which demand, where, by how much.
   std::vector<std::string> near_misses;
-  /// For who settles or draws them.
   Options options;
+  std::shared_ptr<const FreeSpace> space;  ///< that the search asked; null where it never came so far
 };
 
 }  // namespace tendril::preform
