@@ -23,7 +23,7 @@ struct PccPoints {
   std::vector<double> radii;
 
   int bends() const { return static_cast<int>(radii.size()); }
-  double length() const;         ///< m
+  double length() const;         ///< m, by the formula above
   Curve curve() const { return Curve::pcc(points, radii); }
 };
 
@@ -36,9 +36,14 @@ struct PccPiece {
   double radius = 0, turn = 0;    ///< of an arc: m, rad
   Vec3 axis = Vec3::Zero();       ///< of the turn, unit; zero for a straight
   Vec3 at(double share) const;    ///< 0 ... 1
+  Vec3 along(double share) const; ///< unit tangent, 0 ... 1
 };
 
-/// All pieces of positive length. Straights shorter than 1e-12 of the whole are left out.
+/// All pieces of positive length. Straights shorter than 1e-12 of the whole are left out, as are those for which arcs that
+/// overlap leave nothing. Throws UsageError, as length() does, unless there is a radius for each vertex.
 std::vector<PccPiece> pieces_of(const PccPoints& points);
+
+/// The angle between two unit directions (rad), to rounding also near 0 and pi.
+double turn_between(const Vec3& in, const Vec3& out);
 
 }  // namespace tendril::routing
