@@ -10,9 +10,11 @@ void bind_method(lua_State* L) {
   const auto builder = std::make_shared<EnvelopeBuilder>();
   bind_envelope(L);
   bind_motion(L, builder);
+  bind_preform(L);
   bind_stability(L);
   bind_variation(L, builder);
   Module method(L, "method", "What engineers do with scenes: analyses and searches that take a scene and never change it");
+  add_preform_to(method);
   add_stability_to(method);
   add_variation_to(method);
 }

@@ -8,8 +8,10 @@
 
 namespace tendril::lua {
 
+void bind_preform(lua_State* L);
 void bind_stability(lua_State* L);
 void bind_variation(lua_State* L, const std::shared_ptr<EnvelopeBuilder>& builder);
+void add_preform_to(Module& method);
 void add_stability_to(Module& method);
 void add_variation_to(Module& method);
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "view/colour_map.h"
 #include "view/histogram.h"
 #include "view/legend_corner.h"
 #include "view/line_labels.h"
@@ -12,9 +13,14 @@
 namespace tendril {
 namespace {
 
-// Okabe and Ito's eight colours for every kind of colour vision, without yellow (pale on white), then darker relatives.
-constexpr std::array<const char*, 12> palette{"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00",
-                                              "#4D4D4D", "#004466", "#803800", "#005C44", "#7A4864", "#8C6000"};
+std::string hex(std::size_t category) {
+  const Rgb colour = category_colour(category);
+  char text[8];
+  std::snprintf(text, sizeof text, "#%02X%02X%02X", int(std::lround(255 * colour.r)), int(std::lround(255 * colour.g)),
+                int(std::lround(255 * colour.b)));
+  return text;
+}
+
 constexpr std::size_t most_marked = 200;
 constexpr int smallest_on_sheet = 13;  // pixels of a letter
 
@@ -163,7 +169,7 @@ void add_line_labels(const Drawable& data, const std::vector<ChartTrace>& traces
     const auto& point = series.points[places[i].point];
     text += "set label " + std::to_string(1001 + i) + " " + gnuplot_quoted(series.name) + " at first " + number(point[0]) +
             ", first " + number(point[1]) + (places[i].left ? " right offset -0.8,0" : " left offset 0.8,0") +
-            " front textcolor rgb '" + palette[i % palette.size()] + "'\n";
+            " front textcolor rgb '" + hex(i) + "'\n";
   }
   text += "set key off\n";
 }
@@ -197,7 +203,7 @@ void add_points(const Chart& chart, const Drawable& data, std::string& text) {
   for (std::size_t i = 0; i < data.series.size(); ++i) {
     const Drawable::Series& series = data.series[i];
     if (series.points.empty()) continue;
-    const std::string block = "$data" + std::to_string(i), colour = palette[i % palette.size()];
+    const std::string block = "$data" + std::to_string(i), colour = hex(i);
     text += block + " << EOD\n";
     for (const auto& point : series.points) {
       text += number(point[0]) + " " + number(point[1]) + "\n";
@@ -244,7 +250,7 @@ void add_bars(const Chart& chart, const Drawable& data, std::string& text) {
       y.take(point[1]);
     }
     text += "EOD\n";
-    parts.push_back(block + " using 1:2:3 with boxes fs solid 0.9 noborder lc rgb '" + palette[i % palette.size()] +
+    parts.push_back(block + " using 1:2:3 with boxes fs solid 0.9 noborder lc rgb '" + hex(i) +
                     "' " + title_of(series.name));
   }
   text += "set grid noxtics nomxtics\nset xtics scale 0 (";
@@ -282,7 +288,7 @@ void add_histogram(const Chart& chart, const Drawable& data, std::string& text) 
       tallest = std::max(tallest, static_cast<double>(bins.counts[k]));
     }
     text += "EOD\n";
-    const std::string colour = palette[i % palette.size()];
+    const std::string colour = hex(i);
     parts.push_back(block + " using 1:2:3:4:(" + (chart.log_y ? "0.5" : "0") + "):2 with boxxyerror fs " +
                     (many ? "transparent solid 0.45" : "solid 0.85") + " border rgb '#ffffff' lc rgb '" + colour +
                     "' " + title_of(data.series[i].name));

@@ -76,6 +76,13 @@ const ColourTable& diverging_colours() {
   return table;
 }
 
+Rgb category_colour(std::size_t index) {
+  static constexpr std::array<std::uint32_t, 12> colours{0x0072B2, 0xD55E00, 0x009E73, 0xCC79A7, 0x56B4E9, 0xE69F00,
+                                                         0x4D4D4D, 0x004466, 0x803800, 0x005C44, 0x7A4864, 0x8C6000};
+  const std::uint32_t c = colours[index % colours.size()];
+  return {float(c >> 16 & 255) / 255, float(c >> 8 & 255) / 255, float(c & 255) / 255};
+}
+
 double lightness(const Rgb& colour) {
   const double r = from_srgb(colour.r), g = from_srgb(colour.g), b = from_srgb(colour.b);
   const double l = std::cbrt(0.4122214708 * r + 0.5363325363 * g + 0.0514459929 * b);

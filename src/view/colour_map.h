@@ -22,6 +22,10 @@ inline constexpr Rgb broken_stripe{0.55f, 0.02f, 0.05f};
 /// Of a value that is not known (NaN).
 inline constexpr Rgb unknown_colour{0.62f, 0.62f, 0.62f};
 
+/// Of things that are told apart and not compared: Okabe and Ito's eight colours for every kind of colour vision, without yellow
+/// (pale on white), then darker relatives; twelve, then again.
+Rgb category_colour(std::size_t index);
+
 /// OKLab lightness, 0 black ... 1 white.
 double lightness(const Rgb& colour);
 
