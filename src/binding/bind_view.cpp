@@ -6,6 +6,7 @@
 #include "binding/examples.h"
 #include "binding/lua_class.h"
 #include "binding/open.h"
+#include "binding/preform_classes.h"
 #include "binding/saved_file.h"
 #include "binding/scene_classes.h"
 #include "binding/solve_options.h"
@@ -22,15 +23,16 @@ struct View {
 
 namespace {
 
-using Shown = std::variant<Scene, SceneEquilibrium>;
 using Colour = std::variant<std::string, std::array<double, 3>, StabilityHandle>;
 using OneOrMany = std::variant<std::string, std::vector<std::string>>;
 
-/// Scenes and equilibria, shared and not copied.
+/// Scenes and what was found in them, shared and not copied.
 struct ShownKind {
   static const Kind& kind() {
-    static const Kind kind{"a scene or an equilibrium", "scene|equilibrium", [](lua_State* L, int index) {
-      return object<Scene>(L, index) || object<SceneEquilibrium>(L, index) ? std::string() : describe(L, index);
+    static const Kind kind{"a scene, an equilibrium, hoses or a hose", "scene|equilibrium|preform_result|hose", [](lua_State* L, int index) {
+      const bool fits = object<Scene>(L, index) || object<SceneEquilibrium>(L, index) || object<PreformHandle>(L, index) ||
+                        object<HoseHandle>(L, index);
+      return fits ? std::string() : describe(L, index);
     }};
     return kind;
   }
@@ -50,7 +52,7 @@ Schema view_options() {
                                         "obstacles are to it, and the rods are plain"),
       option<std::string>("title", "", "On the card"),
   }
-      .with_list(ShownKind::kind(), "what", "The scene, its equilibrium, or both");
+      .with_list(ShownKind::kind(), "what", "The scene, its equilibrium, hoses of method.preform (all, or one to colour it by its clearance)");
 }
 
 Schema save_options() {
@@ -93,18 +95,34 @@ void read_colour(const Options& o, const SceneEquilibrium* shown, PictureWish& w
   throw UsageError("view.new: 'color': unknown " + unknown_name(name, "colours", colour_names()));
 }
 
+/// The entry on top of the stack, when it is a set of hoses or one of them.
+bool read_hoses(lua_State* L, View& view) {
+  const PreformHandle* set = object<PreformHandle>(L, -1);
+  const HoseHandle* hose = object<HoseHandle>(L, -1);
+  if (!set && !hose) return false;
+  if (!view.wish.designs.empty()) throw UsageError("view.new: got hoses twice, expected one set of hoses or one hose");
+  const preform::Result& result = *(set ? set->result : hose->set.result);
+  if (result.hoses.empty()) throw UsageError("view.new: there are no hoses to show: " + result.message);
+  view.wish.designs = designs_of(result, hose ? std::optional<int>(hose->index) : std::nullopt);
+  if (hose && result.space->has_obstacles()) view.wish.gap_scale = gap_scale(result);
+  return true;
+}
+
 void read_shown(lua_State* L, const Options& o, View& view) {
   const lua_Integer count = o.index() ? luaL_len(L, o.index()) : 0;
   for (lua_Integer i = 1; i <= count; ++i) {
     lua_geti(L, o.index(), i);
     const bool scene = object<Scene>(L, -1) != nullptr;
-    if (scene ? view.scene != nullptr : view.equilibrium != nullptr)
-      throw UsageError(std::string("view.new: got two ") + (scene ? "scenes" : "equilibria") + ", expected at most one of each");
-    if (scene) view.scene = Value<std::shared_ptr<Scene>>::read(L, -1);
-    else view.equilibrium = Value<std::shared_ptr<SceneEquilibrium>>::read(L, -1);
+    if (!read_hoses(L, view)) {
+      if (scene ? view.scene != nullptr : view.equilibrium != nullptr)
+        throw UsageError(std::string("view.new: got two ") + (scene ? "scenes" : "equilibria") + ", expected at most one of each");
+      if (scene) view.scene = Value<std::shared_ptr<Scene>>::read(L, -1);
+      else view.equilibrium = Value<std::shared_ptr<SceneEquilibrium>>::read(L, -1);
+    }
     lua_pop(L, 1);
   }
-  if (!view.scene && !view.equilibrium) throw UsageError("view.new: nothing to show; give a scene, its equilibrium, or both");
+  if (!view.scene && !view.equilibrium && view.wish.designs.empty())
+    throw UsageError("view.new: nothing to show; give a scene, its equilibrium, or both");
   if (!view.scene) view.scene = std::make_shared<Scene>();
 }
 

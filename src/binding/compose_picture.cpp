@@ -204,6 +204,10 @@ Picture compose_picture(const Scene& scene, const SceneEquilibrium* eq, const Pi
   PictureWish rod_wish = wish;
   if (shell_coloured) rod_wish.colour = RodColour::plain;
   if (eq) picture.tubes = compose_tubes(*eq, rod_wish);
+  if (!wish.designs.empty()) {
+    if (!eq) picture.card.title = wish.title.empty() ? "designs" : wish.title;
+    add_designs(wish.designs, picture);
+  }
   for (const PictureTube& tube : picture.tubes) shown.rods.extend(box_of_tube(tube));
   if (!eq)
     for (const auto& rod : scene.rods())
@@ -211,6 +215,9 @@ Picture compose_picture(const Scene& scene, const SceneEquilibrium* eq, const Pi
   add_surfaces(shown, wish, picture);
   if (eq) {
     add_solved(*eq, rod_wish, picture);
+  } else if (!wish.designs.empty()) {
+    if (wish.gap_scale) picture.scale = *wish.gap_scale;
+    picture.card.rows.push_back({"tendril", TENDRIL_VERSION, false});
   } else {
     for (const auto& rod : scene.rods()) add_holds(rod->rod(), rod->holds(), nullptr, picture);
     picture.card.title = wish.title.empty() ? "scene" : wish.title;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "binding/compose_designs.h"
 #include "scene/scene.h"
 #include "view/picture.h"
 
@@ -26,6 +27,8 @@ struct PictureWish {
   /// A transparent shell around the rods. With RodColour::clearance it is the shell that the colours speak of: how far its
   /// vertices are from the obstacles, negative inside. The rods are plain then.
   std::shared_ptr<const TriangleSurface> envelope;
+  std::vector<PictureDesign> designs;     ///< drawn besides; without an equilibrium the card speaks of them
+  std::optional<ColourScale> gap_scale;   ///< of the designs' gaps
 };
 
 /// Throws UsageError for obstacles to ghost that are not there.
