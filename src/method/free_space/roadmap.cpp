@@ -1,0 +1,124 @@
+#include "method/free_space/roadmap.h"
+
+#include <algorithm>
+#include <cmath>
+#include <queue>
+
+#include "base/number_text.h"
+#include "base/parallel.h"
+#include "base/units.h"
+
+namespace tendril::routing {
+
+namespace {
+
+constexpr double most_nodes = 30e6;
+
+struct Waiting {
+  float cost;
+  int node;
+  bool operator<(const Waiting& other) const { return cost > other.cost || (cost == other.cost && node > other.node); }
+};
+
+}  // namespace
+
+const std::array<Roadmap::Neighbour, 26>& Roadmap::neighbours() {
+  static const std::array<Neighbour, 26> all = [] {
+    std::array<Neighbour, 26> list;
+    int count = 0;
+    for (int z = -1; z <= 1; ++z)
+      for (int y = -1; y <= 1; ++y)
+        for (int x = -1; x <= 1; ++x)
+          if (x || y || z) list[count++] = {{x, y, z}, std::sqrt(float(x * x + y * y + z * z))};
+    return list;
+  }();
+  return all;
+}
+
+Roadmap::Roadmap(const FreeSpace& space, double step, const RunContext& context) : space_(space), step_(step) {
+  if (!(step > 0) || !std::isfinite(step)) throw UsageError("grid: its step is " + number_text(step) + " m; a length above 0 expected");
+  const Eigen::AlignedBox3d& region = space.region();
+  corner_ = region.min();
+  double count = 1;
+  for (int k = 0; k < 3; ++k) count *= std::floor(region.sizes()[k] / step) + 1;
+  if (!(count <= most_nodes))
+    throw UsageError("grid: a step of " + number_text(step / units::mm) + " mm makes " + number_text(std::round(count / 1e6)) +
+                     " million nodes, at most 30 million expected; take a larger 'grid' or a box to 'keep_in'");
+  for (int k = 0; k < 3; ++k) size_[k] = static_cast<int>(std::floor(region.sizes()[k] / step)) + 1;
+  // Nodes that are free by D are joined by edges whose middles are at least D - step sqrt(3) / 2 from everything: above 0, so that
+  // no surface lies between, up to step = 1.15 D.
+  edges_are_free_ = !space.has_obstacles() || step <= 1.15 * (space.demands().radius + space.demands().clearance);
+  free_.assign(static_cast<std::size_t>(count), 0);
+  const bool preferences = space.has_preferences();
+  if (preferences) costs_.assign(free_.size(), 1.0f);
+  const int workers = std::min(thread_count(context.threads), size_[2]);
+  const int layer = size_[0] * size_[1];
+  std::vector<long> found(workers, 0);
+  run_workers(workers, [&](int worker) {
+    for (int z = worker; z < size_[2] && !context.stop(); z += workers)
+      for (int i = z * layer; i < (z + 1) * layer; ++i) {
+        const Vec3 p = place(i);
+        free_[i] = space_.is_free(p);
+        found[worker] += free_[i];
+        if (preferences && free_[i]) costs_[i] = static_cast<float>(space_.cost(p));
+      }
+  });
+  for (const long n : found) free_nodes_ += n;
+}
+
+std::array<int, 3> Roadmap::cell(int node) const {
+  return {node % size_[0], node / size_[0] % size_[1], node / (size_[0] * size_[1])};
+}
+
+Vec3 Roadmap::place(int node) const {
+  const std::array<int, 3> c = cell(node);
+  return corner_ + step_ * Vec3(c[0], c[1], c[2]);
+}
+
+bool Roadmap::holds(const std::array<int, 3>& c) const {
+  return c[0] >= 0 && c[1] >= 0 && c[2] >= 0 && c[0] < size_[0] && c[1] < size_[1] && c[2] < size_[2];
+}
+
+std::array<int, 3> Roadmap::nearest(const Vec3& p) const {
+  std::array<int, 3> c;
+  for (int k = 0; k < 3; ++k) c[k] = std::clamp(static_cast<int>(std::lround((p[k] - corner_[k]) / step_)), 0, size_[k] - 1);
+  return c;
+}
+
+bool Roadmap::passes(int from, int to) const {
+  return free_[from] && free_[to] && (edges_are_free_ || space_.is_free(place(from), place(to)));
+}
+
+float Roadmap::cost_between(int from, int to, float steps) const {
+  const float length = steps * static_cast<float>(step_);
+  return costs_.empty() ? length : 0.5f * (costs_[from] + costs_[to]) * length;
+}
+
+std::vector<float> Roadmap::costs_to(const std::vector<Goal>& goals) const {
+  std::vector<float> cost(free_.size(), unreachable);
+  std::priority_queue<Waiting> waiting;
+  for (const Goal& goal : goals) {
+    if (!(goal.cost < cost[goal.node])) continue;
+    cost[goal.node] = static_cast<float>(goal.cost);
+    waiting.push({cost[goal.node], goal.node});
+  }
+  while (!waiting.empty()) {
+    const Waiting next = waiting.top();
+    waiting.pop();
+    if (next.cost > cost[next.node]) continue;
+    const std::array<int, 3> here = cell(next.node);
+    for (const Neighbour& n : neighbours()) {
+      const std::array<int, 3> there{here[0] + n.offset[0], here[1] + n.offset[1], here[2] + n.offset[2]};
+      if (!holds(there)) continue;
+      const int other = node(there);
+      if (!free_[other]) continue;
+      const float through = next.cost + cost_between(other, next.node, n.steps);
+      if (through >= cost[other] || !passes(other, next.node)) continue;
+      cost[other] = through;
+      waiting.push({through, other});
+    }
+  }
+  return cost;
+}
+
+}  // namespace tendril::routing

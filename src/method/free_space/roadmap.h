@@ -1,0 +1,63 @@
+// A uniform grid over free space whose nodes have up to 26 neighbours: where both routing methods look for passages.
+#pragma once
+
+#include <array>
+#include <limits>
+#include <vector>
+
+#include "base/run_context.h"
+#include "method/free_space/free_space.h"
+
+namespace tendril::routing {
+
+/// Nodes are numbered x fastest. Immutable, safe from several threads.
+class Roadmap {
+ public:
+  /// Nodes `step` (m) apart over space.region(), from its lower corner on. Throws UsageError for more than 30 million. When stopped
+  /// by `context` no more nodes become free.
+  Roadmap(const FreeSpace& space, double step, const RunContext& context = {});
+
+  double step() const { return step_; }
+  const std::array<int, 3>& size() const { return size_; }
+  long nodes() const { return static_cast<long>(free_.size()); }
+  long free_nodes() const { return free_nodes_; }
+
+  Vec3 place(int node) const;                               ///< m
+  std::array<int, 3> cell(int node) const;
+  int node(const std::array<int, 3>& cell) const { return cell[0] + size_[0] * (cell[1] + size_[1] * cell[2]); }
+  bool holds(const std::array<int, 3>& cell) const;         ///< within the grid
+  std::array<int, 3> nearest(const Vec3& p) const;          ///< a cell within the grid
+  bool is_free(int node) const { return free_[node]; }
+
+  /// A way on from a node: its neighbour and the distance there in steps.
+  struct Neighbour {
+    std::array<int, 3> offset;
+    float steps;
+  };
+  static const std::array<Neighbour, 26>& neighbours();
+  /// Between two free neighbours. Where the step is at most 1.15 times radius plus clearance both ends being free is enough.
+  bool passes(int from, int to) const;
+
+  /// What it costs to get to the goals from each node (m, by FreeSpace::cost), each goal beginning with a cost of its own; infinite
+  /// where no way leads.
+  struct Goal {
+    int node = 0;
+    double cost = 0;
+  };
+  static constexpr float unreachable = std::numeric_limits<float>::infinity();
+  std::vector<float> costs_to(const std::vector<Goal>& goals) const;
+
+ private:
+  float cost_between(int from, int to, float steps) const;
+
+  const FreeSpace& space_;
+  double step_;
+  bool edges_are_free_;
+  Vec3 corner_;
+  std::array<int, 3> size_ = {1, 1, 1};
+  std::vector<char> free_;
+  std::vector<float> costs_;  ///< per metre, by node; empty where nothing is preferred
+  long free_nodes_ = 0;
+};
+
+}  // namespace tendril::routing
