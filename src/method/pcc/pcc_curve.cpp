@@ -18,21 +18,6 @@ void check(const PccPoints& points) {
                      " radii; two ends, and a radius for each vertex between them, are expected");
 }
 
-/// Directions of the edges. An edge without length goes on as the one before, the first ones as the first that has a length.
-std::vector<Vec3> directions(const std::vector<Vec3>& points) {
-  std::vector<Vec3> along(points.size() - 1, Vec3::Zero());
-  Vec3 last = Vec3::Zero();
-  for (std::size_t i = 0; i < along.size(); ++i) {
-    const Vec3 edge = points[i + 1] - points[i];
-    const double length = edge.stableNorm();
-    if (length > 0) last = edge / length;
-    along[i] = last;
-  }
-  for (std::size_t i = along.size() - 1; i-- > 0;)
-    if (along[i].isZero(0)) along[i] = along[i + 1];
-  return along;
-}
-
 PccPiece arc(const Vec3& vertex, const Vec3& in, const Vec3& out, double radius, double turn) {
   PccPiece piece;
   const double tangent = radius * std::tan(0.5 * turn);
@@ -52,13 +37,27 @@ PccPiece arc(const Vec3& vertex, const Vec3& in, const Vec3& out, double radius,
 
 }  // namespace
 
+std::vector<Vec3> edge_directions(const std::vector<Vec3>& points) {
+  std::vector<Vec3> along(points.size() - 1, Vec3::Zero());
+  Vec3 last = Vec3::Zero();
+  for (std::size_t i = 0; i < along.size(); ++i) {
+    const Vec3 edge = points[i + 1] - points[i];
+    const double length = edge.stableNorm();
+    if (length > 0) last = edge / length;
+    along[i] = last;
+  }
+  for (std::size_t i = along.size() - 1; i-- > 0;)
+    if (along[i].isZero(0)) along[i] = along[i + 1];
+  return along;
+}
+
 double turn_between(const Vec3& in, const Vec3& out) { return 2 * std::atan2((out - in).norm(), (out + in).norm()); }
 
 double PccPoints::length() const {
   check(*this);
   double sum = 0;
   for (std::size_t i = 0; i + 1 < points.size(); ++i) sum += (points[i + 1] - points[i]).stableNorm();
-  const std::vector<Vec3> along = directions(points);
+  const std::vector<Vec3> along = edge_directions(points);
   for (std::size_t i = 0; i < radii.size(); ++i) {
     const double turn = turn_between(along[i], along[i + 1]);
     if (turn > no_turn) sum -= radii[i] * (2 * std::tan(0.5 * turn) - turn);
@@ -82,7 +81,7 @@ Vec3 PccPiece::along(double share) const {
 std::vector<PccPiece> pieces_of(const PccPoints& points) {
   check(points);
   const std::vector<Vec3>& p = points.points;
-  const std::vector<Vec3> along = directions(p);
+  const std::vector<Vec3> along = edge_directions(p);
   const double shortest = 1e-12 * points.length();
   std::vector<PccPiece> pieces;
   double s = 0;

@@ -43,6 +43,10 @@ struct PccPiece {
 /// overlap leave nothing. Throws UsageError, as length() does, unless there is a radius for each vertex.
 std::vector<PccPiece> pieces_of(const PccPoints& points);
 
+/// Unit directions of the edges. One without length goes on as the one before, the first ones as the first that has a length;
+/// zero where none has.
+std::vector<Vec3> edge_directions(const std::vector<Vec3>& points);
+
 /// The angle between two unit directions (rad), to rounding also near 0 and pi.
 double turn_between(const Vec3& in, const Vec3& out);
 

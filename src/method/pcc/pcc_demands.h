@@ -20,15 +20,17 @@ struct PccDemands {
   double free_ends = 0;
 };
 
-/// How far a curve is from keeping what is demanded, everything exact; the worst first.
+/// How far a curve is from keeping one of its demands.
 struct Violation {
-  enum class Kind { clearance, keep_in, keep_out, straight, end_straight, length, turn, cone, radius };
+  /// crossing: the centre line passes through a surface within the free ends; by: m, the whole of what is demanded.
+  enum class Kind { clearance, keep_in, keep_out, straight, end_straight, length, turn, cone, radius, crossing };
   Kind kind = Kind::clearance;
   double by = 0;              ///< m or rad, > 0
   double s = 0;               ///< m, where along the curve
   Vec3 at = Vec3::Zero();     ///< m
-  int obstacle = -1;          ///< number in FreeSpace, of a clearance
+  int obstacle = -1;          ///< number in FreeSpace, of a clearance, zone, wall or crossing
 };
+/// "clearance", "keep_in", ... as the kinds above.
 const char* name_of(Violation::Kind kind);
 
 }  // namespace tendril::routing
