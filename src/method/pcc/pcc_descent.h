@@ -1,8 +1,8 @@
 // The local optimum of a curve of straights and arcs: shortest (or cheapest) among those that keep what is demanded.
 //
-// Unknowns are the two end distances, the inner vertices, and the directions of ends that may turn within a cone. Penalties
-// with exact gradients and L-BFGS come first, then an augmented Lagrangian, so that the demands hold to rounding and the
-// length is that of the constrained optimum.
+// Unknowns are the two end distances, the inner vertices, and the directions of ends that may turn within a cone
+// (pcc_unknowns.h). Penalties with exact gradients (pcc_terms.h) and BFGS come first, then an augmented Lagrangian, so that the
+// demands hold to rounding and the length is that of the constrained optimum.
 #pragma once
 
 #include "base/run_context.h"
@@ -25,8 +25,9 @@ struct DescentResult {
   int iterations = 0, queries = 0;
 };
 
-/// Starts from the vertices of `seed`, whose ends are those of `ends` (its first and last edges need not be along the ends'
-/// directions: they are projected). Deterministic. Stops early, with the best so far, when `context` says so.
+/// Starts from the vertices and radii of `seed`; its ends are those of `ends`, and its first and last vertices are projected onto
+/// their directions. Vertices at which nothing is left to turn are left out of the result. Deterministic. Stops early, with the
+/// best so far, when `context` says so. Throws UsageError for numbers that make no sense.
 DescentResult descend(const FreeSpace& space, const PccDemands& demands, const Ends& ends, const PccPoints& seed,
                       const DescentOptions& options = {}, const RunContext& context = {});
 

@@ -1,0 +1,126 @@
+#include "method/pcc/pcc_descent.h"
+
+#include <algorithm>
+#include <sstream>
+
+#include "base/error.h"
+#include "method/pcc/bfgs.h"
+#include "method/pcc/pcc_terms.h"
+
+namespace tendril::routing {
+
+namespace {
+
+// Penalty weights times the smallest radius: the first lets a curve pull itself tight, the second leaves misses of less than
+// a thousandth of the radius. A softer start would cut through walls.
+constexpr double first_weight = 5, second_weight = 500;
+// Turns below this (rad) are no bends. What leaving one out moves is a thousandth of what counts as kept.
+constexpr double no_bend = 1e-8;
+
+/// One descent's parts and what it has used.
+struct Descent {
+  const DescentOptions& options;
+  const RunContext& context;
+  PccUnknowns& unknowns;
+  PccTerms& terms;
+  double unit;  ///< m, the smallest radius
+  Eigen::VectorXd x;
+  int iterations = 0;
+
+  /// To the minimum for the weights and multipliers there are.
+  void settle(double gradient, double decrease) {
+    BfgsOptions bfgs;
+    bfgs.iterations = options.iterations;
+    bfgs.gradient = gradient;
+    bfgs.decrease = decrease;
+    bfgs.largest_step = unit;
+    iterations += minimize([this](const Eigen::VectorXd& at, Eigen::VectorXd& by) { return terms(at, by); }, x, bfgs, context).iterations;
+  }
+
+  void penalize(double weight, double gradient, double decrease) {
+    terms.weight = weight / unit;
+    for (int round = 0; round < 3 && !context.stop(); ++round) {
+      if (round > 0 && terms.planned(x)) return;
+      terms.plan(x, options.sample);
+      settle(gradient, decrease);
+    }
+  }
+
+  /// Augmented Lagrangian: multipliers until the demands hold to rounding.
+  void polish() {
+    terms.plan(x, options.sample);
+    Eigen::VectorXd gradient(x.size());
+    double before = std::numeric_limits<double>::infinity();
+    for (int round = 0; round < 30 && !context.stop(); ++round) {
+      settle(1e-9, 0);
+      terms(x, gradient);
+      const double mismatch = terms.mismatch();
+      if (mismatch < 1e-11 * unit) return;
+      terms.update_multipliers();
+      if (mismatch > 0.25 * before && terms.weight < 1e5 / unit) terms.weight *= 4;
+      before = mismatch;
+    }
+  }
+};
+
+/// The vertices without those at which nothing bends.
+PccPoints cleaned(const PccShape& shape, const std::vector<double>& radii) {
+  PccPoints curve;
+  curve.points.push_back(shape.points.front());
+  for (std::size_t i = 0; i < radii.size(); ++i) {
+    if (shape.turns[i] <= no_bend) continue;
+    curve.points.push_back(shape.points[i + 1]);
+    curve.radii.push_back(radii[i]);
+  }
+  curve.points.push_back(shape.points.back());
+  return curve;
+}
+
+void check(const PccPoints& seed, const DescentOptions& options) {
+  std::ostringstream said;
+  if (seed.points.size() != seed.radii.size() + 2)
+    said << seed.points.size() << " points and " << seed.radii.size() << " radii; two ends, and a radius for each vertex between them";
+  else if (!(options.sample > 0) || !std::isfinite(options.sample))
+    said << "samples " << options.sample << " m apart; a finite distance above 0";
+  else if (!(options.margin >= 0) || !std::isfinite(options.margin))
+    said << "a margin of " << options.margin << " m; a finite one of at least 0";
+  if (!said.str().empty()) throw UsageError("pcc descent: " + said.str() + " is expected");
+  for (const Vec3& point : seed.points)
+    if (!all_finite(point)) throw UsageError("pcc descent: a seed with a point that is not finite");
+}
+
+}  // namespace
+
+DescentResult descend(const FreeSpace& space, const PccDemands& demands, const Ends& ends, const PccPoints& seed,
+                      const DescentOptions& options, const RunContext& context) {
+  check(seed, options);
+  DescentResult result;
+  if (seed.bends() == 0) {
+    // Nothing is left to choose.
+    result.curve = {{ends.start, ends.finish}, {}};
+    result.length = result.objective = result.curve.length();
+    return result;
+  }
+  PccUnknowns unknowns(demands, ends, seed.radii);
+  PccTerms terms(space, demands, unknowns, options.margin);
+  Descent descent{options, context, unknowns, terms, *std::min_element(seed.radii.begin(), seed.radii.end()), unknowns.nearest(seed)};
+  if (!options.polish) {
+    descent.penalize(first_weight, 1e-2, 1e-4);
+    descent.penalize(second_weight, 1e-3, 1e-6);
+  } else {
+    descent.penalize(second_weight, 1e-5, 1e-9);
+    // Turns up to the largest that is allowed have their true tangents now.
+    unknowns.linear_from = std::clamp(demands.max_turn + 0.02, 2.75, 3.12);
+    descent.polish();
+  }
+  PccShape shape;
+  unknowns.evaluate(descent.x, shape);
+  result.curve = cleaned(shape, seed.radii);
+  result.length = result.curve.length();
+  result.objective = result.length + terms.objective(descent.x) - shape.length;
+  result.iterations = descent.iterations;
+  result.queries = terms.queries();
+  return result;
+}
+
+}  // namespace tendril::routing

@@ -1,0 +1,56 @@
+// What a descent minimises: the length or the cost of a curve, and a quadratic penalty for each demand that it misses,
+//   objective + w sum max(0, multiplier / 2 w - slack)^2
+// With multipliers at zero this is the penalty method; with those that update() estimates, the augmented Lagrangian.
+#pragma once
+
+#include <vector>
+
+#include "method/free_space/free_space.h"
+#include "method/pcc/pcc_samples.h"
+
+namespace tendril::routing {
+
+class PccTerms {
+ public:
+  /// `margin` (m) is kept to the surroundings on top of what is demanded. Holds references to all of its arguments.
+  PccTerms(const FreeSpace& space, const PccDemands& demands, const PccUnknowns& unknowns, double margin);
+
+  double weight = 1;  ///< 1/m
+
+  /// Places samples along the curve anew, and forgets their multipliers; see PccSamples::plan.
+  void plan(const Eigen::VectorXd& x, double spacing);
+  /// Whether the samples are still close enough together.
+  bool planned(const Eigen::VectorXd& x);
+
+  /// m; fills the gradient. Allocates nothing after the first call.
+  double operator()(const Eigen::VectorXd& x, Eigen::VectorXd& gradient);
+  /// Without penalties, m. At x.
+  double objective(const Eigen::VectorXd& x);
+
+  /// New multipliers from the slacks of the last evaluation.
+  void update_multipliers();
+  /// How far the last evaluation was from the solution of the constrained problem: the largest miss, or multiplier of a demand
+  /// that has slack, m.
+  double mismatch() const;
+  int queries() const { return queries_; }  ///< exact gaps that were asked for
+
+ private:
+  /// Adds the penalty for a slack and returns its derivative.
+  double penalty(int term, double slack, double& sum);
+  void add_demands(double& sum);
+  double add_samples(double& sum);
+
+  const FreeSpace& space_;
+  const PccDemands& demands_;
+  const PccUnknowns& unknowns_;
+  double margin_, unit_;  ///< unit_: m per rad
+  PccShape shape_;
+  PccAdjoint adjoint_;
+  PccSamples samples_;
+  bool sampled_;
+  int fixed_ = 0;  ///< number of terms before those of the samples
+  std::vector<double> multipliers_, slacks_;
+  int queries_ = 0;
+};
+
+}  // namespace tendril::routing
