@@ -135,6 +135,51 @@ DistanceTree::Nearest DistanceTree::closest(const Vec3& p, double limit, int hin
   return best;
 }
 
+// Below `certain` single precision suffices, above `possible` too; in between the mesh itself is asked.
+bool DistanceTree::any_within(const Leaf& leaf, const float* q, const Vec3& p, double range, float certain, float possible) const {
+  const Float8 squared = triangle_distances(leaf, q);
+  // Empty places repeat the first triangle.
+  if (simd::bits(squared < simd::all(certain))) return true;
+  for (unsigned near = simd::bits(squared <= simd::all(possible)); near; near &= near - 1) {
+    const int triangle = leaf.triangle[__builtin_ctz(near)];
+    if (triangle < 0) continue;
+    Nearest nearest{range, p, -1};
+    measure(p, triangle, nearest);
+    if (nearest.triangle >= 0) return true;
+  }
+  return false;
+}
+
+bool DistanceTree::within(const Vec3& p, double range) const {
+  const Vec3 local = p - middle_;
+  if (!(range > 0) || !all_finite(p)) return false;
+  const double slack = margin(local);
+  const float q[3] = {static_cast<float>(local.x()), static_cast<float>(local.y()), static_cast<float>(local.z())};
+  const float possible = std::min(widened(range, slack), largest);
+  const double sure = range - slack;
+  const float certain = sure > 0 ? static_cast<float>(sure * sure * (1 - 1e-6)) : 0;
+  int stack[stack_size];
+  int top = 0;
+  for (int next = 0;;) {
+    if (next < 0) {
+      if (any_within(leaves_[~next], q, p, range, certain, possible)) return true;
+    } else {
+      const Node& node = nodes_[next];
+      const Float8 squared = box_distances(node, q);
+      unsigned near = simd::bits(squared <= simd::all(possible));
+      if (near) {
+        // Down the nearest child; the others wait.
+        const int first = __builtin_ctz(simd::bits(squared == simd::all(simd::smallest(squared))));
+        for (near &= ~(1u << first); near; near &= near - 1) stack[top++] = node.child[__builtin_ctz(near)];
+        next = node.child[first];
+        continue;
+      }
+    }
+    if (top == 0) return false;
+    next = stack[--top];
+  }
+}
+
 void DistanceTree::crossing(const Vec3& a, const Vec3& b, int triangle, std::optional<Hit>& first) const {
   const auto& t = mesh_.triangles[triangle];
   const Vec3 v0 = mesh_.vertices[t[0]] - a, v1 = mesh_.vertices[t[1]] - a, v2 = mesh_.vertices[t[2]] - a;

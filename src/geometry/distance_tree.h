@@ -30,6 +30,9 @@ class DistanceTree {
   /// the answer for a neighbouring point; it saves time and does not change the answer in any bit.
   Nearest closest(const Vec3& p, double limit = std::numeric_limits<double>::infinity(), int hint = -1) const;
 
+  /// True when a triangle is nearer than `range` (m): the same answer as closest(p, range) in less time.
+  bool within(const Vec3& p, double range) const;
+
   /// Calls visit(triangle) once for every triangle nearer than `range` (m), and for some that are not.
   template <class Visit>
   void visit_near(const Vec3& p, double range, Visit&& visit) const;
@@ -85,6 +88,7 @@ class DistanceTree {
   struct Shortlist;
   void settle(const Vec3& p, Shortlist& shortlist, Nearest& best) const;
   void measure(const Vec3& p, int triangle, Nearest& best) const;
+  bool any_within(const Leaf& leaf, const float* q, const Vec3& p, double range, float certain, float possible) const;
   void crossing(const Vec3& a, const Vec3& b, int triangle, std::optional<Hit>& first) const;
 
   const Mesh& mesh_;

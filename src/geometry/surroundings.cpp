@@ -28,7 +28,7 @@ int Surroundings::add(Obstacle obstacle) {
     throw UsageError("obstacle: the pose is not a frame; a finite place and a unit rotation expected");
   obstacle.pose.rotation.normalize();
   const TriangleSurface* surface = mesh ? mesh->get() : nullptr;
-  const Eigen::AlignedBox3d box = surface ? surface->box() : box_of(std::get<Solid>(obstacle.shape));
+  const Eigen::AlignedBox3d box = surface ? surface->box() : tendril::box_of(std::get<Solid>(obstacle.shape));
   const Eigen::AlignedBox3d in_world = placed(box, obstacle.pose);
   const Mat3 axes = obstacle.pose.rotation.toRotationMatrix();
   largest_clearance_ = std::max(largest_clearance_, obstacle.clearance);
@@ -64,6 +64,19 @@ ClosestPoint Surroundings::closest_kept(const Vec3& p, double limit, double most
     if (found.obstacle >= 0) best = found;
   }
   return best;
+}
+
+bool Surroundings::within_kept(const Vec3& p, double limit, double most) const {
+  if (!all_finite(p)) return false;
+  for (const Entry& entry : entries_) {
+    const double reach = limit + entry.thickness(most), to_box = entry.box.squaredExteriorDistance(p);
+    if (to_box > 0 && !(reach > 0 && to_box < reach * reach)) continue;
+    const Vec3 local = entry.to_local(p);
+    if (entry.surface ? entry.surface->tree().within(local, reach)
+                      : distance_to(std::get<Solid>(entry.obstacle.shape), local).distance < reach)
+      return true;
+  }
+  return false;
 }
 
 void Surroundings::terms(const Vec3& p, double range, std::vector<DistanceTerm>& out) const { terms_kept(p, range, 0, out); }

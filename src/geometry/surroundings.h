@@ -46,10 +46,15 @@ class Surroundings final : public ContactField {
   void terms_kept(const Vec3& p, double range, double most, std::vector<DistanceTerm>& out) const override;
   std::string name(int obstacle) const override;
 
+  /// True when closest_kept(p, limit, most) finds anything: cheaper, as it stops at the first surface that is near enough.
+  bool within_kept(const Vec3& p, double limit, double most) const;
+
   /// The closest point of one obstacle.
   ClosestPoint closest_on(int obstacle, const Vec3& p, double limit) const { return closest_on(obstacle, p, limit, 0); }
 
   Eigen::AlignedBox3d box() const;  ///< of all obstacles but half-spaces, m
+  /// Of one obstacle in world axes, m; infinite for a half-space.
+  const Eigen::AlignedBox3d& box_of(int obstacle) const { return entries_[obstacle].box; }
 
  private:
   struct Entry {

@@ -134,6 +134,11 @@ std::shared_ptr<const Surroundings> Scene::surroundings() const {
   return surroundings_;
 }
 
+const std::shared_ptr<FieldStore>& Scene::fields() const {
+  if (!fields_) fields_ = std::make_shared<FieldStore>();
+  return fields_;
+}
+
 RodProblem Scene::problem_of(const PlacedRod& rod) const {
   RodProblem problem;
   problem.rod = rod.rod();

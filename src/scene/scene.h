@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/run_context.h"
+#include "geometry/field_store.h"
 #include "scene/placed_obstacle.h"
 #include "scene/placed_branch.h"
 #include "scene/placed_rod.h"
@@ -48,6 +49,9 @@ class Scene {
   /// The obstacles as statics sees them; null without obstacles. Builds no tree: the first query near a mesh does.
   std::shared_ptr<const Surroundings> surroundings() const;
 
+  /// Coarse fields of the distance to the obstacles, kept for the next search through the same ones. Made by the first call.
+  const std::shared_ptr<FieldStore>& fields() const;
+
   /// The statics problem of one rod with only the terms that it needs.
   RodProblem problem_of(const PlacedRod& rod) const;
 
@@ -75,6 +79,7 @@ class Scene {
   std::vector<std::unique_ptr<PlacedRod>> rods_;
   std::vector<std::unique_ptr<PlacedBranch>> branches_;
   mutable std::shared_ptr<const Surroundings> surroundings_;
+  mutable std::shared_ptr<FieldStore> fields_;
 };
 
 }  // namespace tendril
