@@ -2,6 +2,7 @@
 
 #include "binding/bind_envelope.h"
 #include "binding/bind_motion.h"
+#include "binding/method_steps.h"
 #include "binding/open.h"
 
 namespace tendril::lua {
@@ -11,6 +12,7 @@ void bind_method(lua_State* L) {
   bind_envelope(L);
   bind_motion(L, builder);
   bind_preform(L);
+  bind_steps(L);
   bind_stability(L);
   bind_variation(L, builder);
   Module method(L, "method", "What engineers do with scenes: analyses and searches that take a scene and never change it");

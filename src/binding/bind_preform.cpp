@@ -7,6 +7,7 @@
 #include "binding/card.h"
 #include "binding/examples.h"
 #include "binding/method_options.h"
+#include "binding/method_steps.h"
 #include "binding/number_like.h"
 #include "binding/preform_classes.h"
 #include "binding/routing_options.h"
@@ -133,12 +134,6 @@ std::string describe_hose(const HoseHandle& h) {
 
 // --- the set
 
-std::string counts_text(const MethodStep& step) {
-  std::string text;
-  for (const auto& [what, count] : step.counts) text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + what;
-  return text;
-}
-
 std::string describe_set(const PreformHandle& set) {
   const preform::Result& r = *set.result;
   Card card("preformed hoses");
@@ -156,9 +151,7 @@ std::string describe_set(const PreformHandle& set) {
 
 std::string report(const PreformHandle& set) {
   std::string text = describe_set(set);
-  std::vector<std::vector<std::string>> rows;
-  for (const MethodStep& step : set.result->steps) rows.push_back({step.name, quantity(step.seconds, "s"), counts_text(step)});
-  text += "\n\n" + table_text({"step", "time", "counts"}, rows);
+  text += "\n\n" + steps_table(set.result->steps);
   for (const std::string& miss : set.result->near_misses) text += "\nnear miss: " + miss;
   for (std::size_t i = 0; i < set.result->hoses.size(); ++i) text += "\n\n" + describe_hose({set, static_cast<int>(i)});
   return text;
@@ -228,15 +221,6 @@ void bind_hose(lua_State* L) {
 }  // namespace
 
 void bind_preform(lua_State* L) {
-  Class<MethodStep>(L, "One step of a method, by the thesis's name")
-      .property("name", "", "Of the step", [](const MethodStep& s) { return s.name; })
-      .property("seconds", "s", "Run time", [](const MethodStep& s) { return s.seconds; })
-      .property("counts", "", "How many of what", [](const MethodStep& s) {
-        std::map<std::string, double> all;
-        for (const auto& [what, count] : s.counts) all[what] = static_cast<double>(count);
-        return all;
-      })
-      .tostring([](const MethodStep& s) { return s.name + ": " + quantity(s.seconds, "s") + (s.counts.empty() ? "" : ", ") + counts_text(s); });
   bind_bend(L);
   Class<SettledHandle> settled(L, "How far gravity moves a hose; computes as a number (m)");
   settled.property("value", "m", "Largest distance from the shape as formed", [](const SettledHandle& s) { return s.moved; })

@@ -8,7 +8,6 @@
 #include "binding/lua_value.h"
 #include "method/preform/bending_table.h"
 #include "method/preform/preform.h"
-#include "method/step.h"
 #include "scene/scene.h"
 
 namespace tendril::lua {
@@ -38,6 +37,5 @@ template <> inline constexpr const char* class_name<PreformHandle> = "preform_re
 template <> inline constexpr const char* class_name<HoseHandle> = "hose";
 template <> inline constexpr const char* class_name<preform::Bend> = "bend";
 template <> inline constexpr const char* class_name<SettledHandle> = "settled_hose";
-template <> inline constexpr const char* class_name<MethodStep> = "step";
 
 }  // namespace tendril::lua
