@@ -35,8 +35,8 @@ bool begins_with(const Surroundings& surroundings, const std::vector<Obstacle>& 
 
 }  // namespace
 
-std::shared_ptr<const DistanceField> FieldStore::field(const Surroundings& surroundings, const Eigen::AlignedBox3d& box, double spacing,
-                                                       const RunContext& context) {
+std::shared_ptr<const DistanceField> FieldStore::field(const Surroundings& surroundings, const Eigen::AlignedBox3d& box,
+                                                       const Eigen::AlignedBox3d& wanted, double spacing, const RunContext& context) {
   const std::lock_guard lock(mutex_);
   int best = -1;
   for (int i = 0; i < static_cast<int>(entries_.size()); ++i) {
@@ -48,7 +48,7 @@ std::shared_ptr<const DistanceField> FieldStore::field(const Surroundings& surro
   if (best >= 0 && static_cast<int>(entries_.front().obstacles.size()) == surroundings.size()) return entries_.front().field;
 
   auto made = best >= 0 ? std::make_shared<const DistanceField>(*entries_.front().field, surroundings, context)
-                        : std::make_shared<const DistanceField>(surroundings, box, spacing, context);
+                        : std::make_shared<const DistanceField>(surroundings, box.merged(wanted), spacing, context);
   if (!made->ok()) return made;
   Entry entry{{}, made};
   for (int i = 0; i < surroundings.size(); ++i) entry.obstacles.push_back(surroundings.obstacle(i));

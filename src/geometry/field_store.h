@@ -14,10 +14,10 @@ namespace tendril {
 /// not count. Safe from several threads; one field is made at a time.
 class FieldStore {
  public:
-  /// A field of these surroundings that covers `box` (m) with a spacing of at most `spacing` (m); see DistanceField for errors.
-  /// One that `context` stopped is not ok() and is not kept.
-  std::shared_ptr<const DistanceField> field(const Surroundings& surroundings, const Eigen::AlignedBox3d& box, double spacing,
-                                             const RunContext& context = {});
+  /// A field of these surroundings that covers `box` (m) with a spacing of at most `spacing` (m); one that has to be made covers
+  /// `wanted` as well. See DistanceField for errors. One that `context` stopped is not ok() and is not kept.
+  std::shared_ptr<const DistanceField> field(const Surroundings& surroundings, const Eigen::AlignedBox3d& box,
+                                             const Eigen::AlignedBox3d& wanted, double spacing, const RunContext& context = {});
 
  private:
   struct Entry {

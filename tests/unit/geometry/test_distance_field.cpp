@@ -207,8 +207,8 @@ TEST_CASE("fields that cannot be are refused, and a stopped one says so", "[dist
   context.cancel = &cancelled;
   CHECK_FALSE(DistanceField(one, cube(1), 0.1, context).ok());
   FieldStore store;
-  CHECK_FALSE(store.field(one, cube(1), 0.1, context)->ok());
-  CHECK(store.field(one, cube(1), 0.1)->ok());
+  CHECK_FALSE(store.field(one, cube(1), cube(1), 0.1, context)->ok());
+  CHECK(store.field(one, cube(1), cube(1), 0.1)->ok());
 }
 
 TEST_CASE("the store gives the same field again, extends it, and makes a new one only where it must", "[distance_field]") {
@@ -218,31 +218,35 @@ TEST_CASE("the store gives the same field again, extends it, and makes a new one
   first.add({bay, {}, 0});
   first.add({Solid(Box{{0.1, 0.2, 0.3}}), {{0.5, 0, 0}, Quat::Identity()}, 0.01});
   FieldStore store;
-  const auto field = store.field(first, cube(1), 0.05);
-  CHECK(store.field(first, cube(1), 0.05) == field);
-  CHECK(store.field(first, cube(0.5), 0.2) == field);
+  const auto field = store.field(first, cube(1), cube(1), 0.05);
+  CHECK(store.field(first, cube(1), cube(1), 0.05) == field);
+  CHECK(store.field(first, cube(0.5), cube(0.5), 0.2) == field);
   Surroundings named;
   named.add({bay, {}, 0, "bay"});
   named.add({Solid(Box{{0.1, 0.2, 0.3}}), {{0.5, 0, 0}, Quat::Identity()}, 0.01, "box"});
-  CHECK(store.field(named, cube(1), 0.05) == field);
+  CHECK(store.field(named, cube(1), cube(1), 0.05) == field);
 
   Surroundings more = first;
   more.add({Solid(Sphere{0.1}), {{-0.6, 0, 0}, Quat::Identity()}, 0});
-  const auto extended = store.field(more, cube(0.8), 0.05);
+  const auto extended = store.field(more, cube(0.8), cube(0.8), 0.05);
   CHECK(extended != field);
   CHECK(extended->box().min() == field->box().min());  // that of the field it came from
-  CHECK(store.field(more, cube(1), 0.05) == extended);
-  CHECK(store.field(first, cube(1), 0.05) == field);
+  CHECK(store.field(more, cube(1), cube(1), 0.05) == extended);
+  CHECK(store.field(first, cube(1), cube(1), 0.05) == field);
   check_bounds(more, *extended, random, 1000);
 
-  CHECK(store.field(first, cube(1), 0.04) != field);   // finer
-  CHECK(store.field(first, cube(1.5), 0.05) != field);  // larger
+  CHECK(store.field(first, cube(0.3), cube(9), 0.05) == field);
+  FieldStore other_store;
+  CHECK(other_store.field(first, cube(0.3), cube(1), 0.05)->box().contains(cube(1)));
+
+  CHECK(store.field(first, cube(1), cube(1), 0.04) != field);   // finer
+  CHECK(store.field(first, cube(1.5), cube(1.5), 0.05) != field);  // larger
   const auto changed = [&](Obstacle obstacle) {
     Surroundings other;
     other.add({bay, {}, 0});
     other.add(std::move(obstacle));
     FieldStore fresh;
-    const auto before = fresh.field(first, cube(1), 0.05), after = fresh.field(other, cube(1), 0.05);
+    const auto before = fresh.field(first, cube(1), cube(1), 0.05), after = fresh.field(other, cube(1), cube(1), 0.05);
     check_bounds(other, *after, random, 300);
     return before != after;
   };
@@ -257,9 +261,9 @@ TEST_CASE("the store gives the same field again, extends it, and makes a new one
   Surroundings fewer;
   fewer.add({bay, {}, 0});
   FieldStore fresh;
-  const auto both = fresh.field(first, cube(1), 0.05);
-  CHECK(fresh.field(fewer, cube(1), 0.05) != both);
-  CHECK(fresh.field(fewer, cube(1), 0.05)->at({0.5, 0, 0}).low > 0);
+  const auto both = fresh.field(first, cube(1), cube(1), 0.05);
+  CHECK(fresh.field(fewer, cube(1), cube(1), 0.05) != both);
+  CHECK(fresh.field(fewer, cube(1), cube(1), 0.05)->at({0.5, 0, 0}).low > 0);
 }
 
 TEST_CASE("within() answers as closest() does", "[distance_tree][distance_field]") {
