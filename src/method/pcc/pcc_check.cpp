@@ -101,11 +101,9 @@ class Collector {
   double tolerance_;
 };
 
-/// Returns whether all arcs fit.
-bool check_straights(const PccDemands& demands, const Polyline& line, double tolerance, Collector& found) {
+void check_straights(const PccDemands& demands, const Polyline& line, Collector& found) {
   const std::vector<Corner>& corners = line.corners;
   const double scale = demands.radii.front();
-  bool fits = true;
   double s = 0;  // where the straight begins on the curve
   for (std::size_t i = 0; i <= corners.size(); ++i) {
     const bool first = i == 0, last = i == corners.size();
@@ -114,10 +112,8 @@ bool check_straights(const PccDemands& demands, const Polyline& line, double tol
     const double least = first && last ? 0 : first || last ? demands.end_straight : demands.min_straight;
     const auto kind = first || last ? Violation::Kind::end_straight : Violation::Kind::straight;
     found.add(kind, least - straight, std::max(least, scale), s + 0.5 * std::max(straight, 0.0));
-    fits = fits && straight >= -tolerance;
     s += std::max(straight, 0.0) + (last ? 0 : corners[i].radius * corners[i].turn);
   }
-  return fits;
 }
 
 void check_bends(const PccDemands& demands, const Polyline& line, Collector& found) {
@@ -242,10 +238,14 @@ std::vector<Violation> violations(const FreeSpace& space, const PccDemands& dema
   const std::vector<PccPiece> pieces = pieces_of(curve);
   const Polyline line = polyline_of(curve);
   Collector collector(pieces, tolerance);
-  const bool fits = check_straights(demands, line, tolerance, collector);
+  check_straights(demands, line, collector);
+  // Arcs may not overlap by more than rounding, whatever the tolerance: such a curve does not exist.
+  const double overlap = overlap_of(curve);
+  if (overlap > 0 && collector.found.empty())
+    collector.add(Violation::Kind::straight, std::max(overlap, 1.01 * tolerance), demands.radii.front(), 0.5 * curve.length());
   check_bends(demands, line, collector);
   check_whole(demands, ends, curve, collector);
-  if (fits) {
+  if (overlap == 0) {
     const Kept kept = kept_of(pieces, demands.free_ends);
     std::vector<Found> gaps;
     check_gaps(space, pieces, kept, tolerance, gaps);

@@ -1,6 +1,7 @@
 // Straights and arcs of a polyline whose vertices are rounded.
 #include "method/pcc/pcc_curve.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/error.h"
@@ -16,6 +17,18 @@ void check(const PccPoints& points) {
   if (points.points.size() < 2 || points.points.size() != points.radii.size() + 2)
     throw UsageError("pcc: " + std::to_string(points.points.size()) + " points and " + std::to_string(points.radii.size()) +
                      " radii; two ends, and a radius for each vertex between them, are expected");
+}
+
+/// What the arc at each point takes of the edges beside it, m.
+std::vector<double> tangents_of(const PccPoints& points) {
+  check(points);
+  const std::vector<Vec3> along = edge_directions(points.points);
+  std::vector<double> tangents(points.points.size(), 0.0);
+  for (std::size_t i = 0; i < points.radii.size(); ++i) {
+    const double turn = turn_between(along[i], along[i + 1]);
+    if (turn > no_turn) tangents[i + 1] = points.radii[i] * std::tan(0.5 * turn);
+  }
+  return tangents;
 }
 
 PccPiece arc(const Vec3& vertex, const Vec3& in, const Vec3& out, double radius, double turn) {
@@ -76,6 +89,29 @@ Vec3 PccPiece::along(double share) const {
   if (!is_arc) return start_along;
   const double angle = share * turn;
   return std::cos(angle) * start_along + std::sin(angle) * axis.cross(start_along);
+}
+
+double overlap_of(const PccPoints& points) {
+  const std::vector<double> tangents = tangents_of(points);
+  double worst = 0;
+  for (std::size_t i = 0; i + 1 < points.points.size(); ++i) {
+    const double wanted = tangents[i] + tangents[i + 1], there = (points.points[i + 1] - points.points[i]).norm();
+    if (wanted > there * (1 + 1e-9)) worst = std::max(worst, wanted - there);
+  }
+  return worst;
+}
+
+PccPoints fitted(const PccPoints& points, double most) {
+  const std::vector<double> tangents = tangents_of(points);
+  std::vector<double> shares(points.points.size(), 1.0);
+  for (std::size_t i = 0; i + 1 < points.points.size(); ++i) {
+    const double wanted = tangents[i] + tangents[i + 1], there = (points.points[i + 1] - points.points[i]).norm();
+    if (wanted <= there || wanted - there > most) continue;
+    for (const std::size_t k : {i, i + 1}) shares[k] = std::min(shares[k], there / wanted);
+  }
+  PccPoints result = points;
+  for (std::size_t i = 0; i < points.radii.size(); ++i) result.radii[i] *= shares[i + 1];
+  return result;
 }
 
 std::vector<PccPiece> pieces_of(const PccPoints& points) {

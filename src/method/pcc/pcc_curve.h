@@ -43,6 +43,13 @@ struct PccPiece {
 /// overlap leave nothing. Throws UsageError, as length() does, unless there is a radius for each vertex.
 std::vector<PccPiece> pieces_of(const PccPoints& points);
 
+/// By how much neighbouring arcs overlap at worst, m; 0 where Curve::pcc takes the curve.
+double overlap_of(const PccPoints& points);
+
+/// Neighbouring arcs that overlap by at most `most` (m) made to fit: both radii are reduced in proportion. What overlaps by more
+/// stays as it is. violations() forgives no overlap beyond rounding.
+PccPoints fitted(const PccPoints& points, double most = 1e-6);
+
 /// Unit directions of the edges. One without length goes on as the one before, the first ones as the first that has a length;
 /// zero where none has.
 std::vector<Vec3> edge_directions(const std::vector<Vec3>& points);

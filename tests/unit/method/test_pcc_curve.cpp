@@ -109,3 +109,18 @@ TEST_CASE("pcc: a radius for each vertex is required") {
   CHECK_THROWS_AS(pieces_of(few), UsageError);
   CHECK_THROWS_AS(pieces_of(PccPoints{}), UsageError);
 }
+
+TEST_CASE("pcc: arcs that overlap by rounding are made to fit") {
+  // Two quarter bends of 50 mm whose tangents take 100 mm of an edge that is 0.5 um short.
+  PccPoints points{{{0, 0, 0}, {0.2, 0, 0}, {0.2, 0.1 - 5e-7, 0}, {0.4, 0.1 - 5e-7, 0}}, {0.05, 0.05}};
+  CHECK(overlap_of(points) == Approx(5e-7).epsilon(1e-6));
+  CHECK_THROWS_AS(points.curve(), UsageError);
+  const PccPoints fits = fitted(points);
+  CHECK(overlap_of(fits) == 0);
+  CHECK(fits.radii[0] == Approx(0.05 - 2.5e-7).epsilon(1e-12));
+  CHECK(fits.curve().length() == Approx(fits.length()).epsilon(1e-12));
+  CHECK(fitted(points, 1e-7).radii == points.radii);
+  points.points[2].y() = points.points[3].y() = 0.1;
+  CHECK(overlap_of(points) == 0);
+  CHECK(fitted(points).radii[0] == Approx(0.05).epsilon(1e-15));
+}
