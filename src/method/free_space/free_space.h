@@ -74,10 +74,8 @@ class FreeSpace {
 
   /// By obstacle number of Gap: the scene's names, "keep_out 1", "keep_in".
   const std::string& name(int obstacle) const { return names_[obstacle]; }
-  /// Obstacle numbers from here on are zones: those of keep_out in order, then keep_in if there is one.
-  int first_zone() const {
-    return static_cast<int>(names_.size() - demands_.keep_out.size()) - (demands_.keep_in ? 1 : 0);
-  }
+  /// Obstacle numbers from here on are zones: those of keep_out in order, then keep_in.
+  int first_zone() const { return surroundings_.size() - static_cast<int>(demands_.keep_out.size()); }
   const Surroundings& surroundings() const { return surroundings_; }  ///< obstacles and zones, with the clearances demanded
 
  private:
