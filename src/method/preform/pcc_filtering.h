@@ -1,26 +1,24 @@
-// Step 4 (thesis 3.2): infeasible curves are dropped, curves that are the same merged, the rest ranked by passage and objective
-// and told apart.
+// Step 4 (thesis 3.2): infeasible curves are dropped, curves that are the same merged, the rest ranked and told apart by passage.
 #pragma once
 
 #include <string>
 #include <vector>
 
+#include "method/preform/passage_match.h"
 #include "method/preform/pcc_optimization.h"
 
 namespace tendril::preform {
 
-/// The largest distance between points at equal shares of the arc length, m; 48 of them.
+/// The largest distance between points at equal shares of the arc length, m; 48 of them. Not of curves run backwards.
 double curve_distance(const PccPoints& a, const PccPoints& b);
 
-/// Whether one curve can be moved into the other through free space along straight rungs: a monotone matching of both whose
-/// rungs are free. A yes is certain; a no means that no such matching was found. `blocking`: numbers of the obstacles that stand
-/// between them then.
-bool same_passage(const FreeSpace& space, const PccPoints& a, const PccPoints& b, std::vector<int>* blocking = nullptr);
-
-/// Indices of the feasible curves that stay, the best first.
+/// Indices of the feasible curves that stay, the best first: of curves nearer together than Options::same all along, the best.
+/// Since curves are not yet at their optimum to the last digit, one with fewer bends stays beside it while it is nearly as good.
 std::vector<int> distinct(const std::vector<Optimized>& curves, const Options& options);
 
-/// With passages, clearances and labels.
+/// Hoses, the best first, with passages counted from 1 in their order, clearances and labels. Of curves that are the same the
+/// best stays, the one with fewer bends where both are equally good. When `context` stops, each hose that was not compared
+/// counts as a passage of its own.
 std::vector<Hose> pcc_filtering(const FreeSpace& space, const Options& options, const std::vector<Optimized>& curves,
                                 const RunContext& context = {});
 
