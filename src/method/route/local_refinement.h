@@ -125,8 +125,9 @@ struct RefinementResult {
 RefinementResult refine(const Scene& scene, const Design& design, const RefinementOptions& options = {},
                         const RunContext& context = {});
 
-/// A place for one more clip: where an obstacle to fasten to is within options.clip_reach, as near as possible to where the rod
-/// misses most (or, where it misses nothing, sags most), with the rod held at its present distance from it. Nothing: no place.
+/// A place for one more clip: as near as possible to where the rod misses its clearance most (where it misses none: sags most), on
+/// its route or else the straight between its neighbouring holds, or as near to that as something to fasten to is within
+/// options.clip_reach of its surface; clear of all obstacles by what they demand. Nothing: no place.
 std::optional<Hold> propose_clip(const SceneEquilibrium& equilibrium, const Design& design, const RefinementOptions& options);
 
 }  // namespace tendril::routing

@@ -1,0 +1,54 @@
+#include "method/route/route_guess.h"
+
+#include <cmath>
+
+#include "base/units.h"
+#include "scene/formed_rod.h"
+
+namespace tendril::routing {
+namespace {
+
+/// The turn about `frame`'s tangent that brings its d1 nearest to that of `like`.
+double turn_to(const Frame& frame, const Frame& like) {
+  return std::atan2(like.d1().dot(frame.d2()) - like.d2().dot(frame.d1()), like.d1().dot(frame.d1()) + like.d2().dot(frame.d2()));
+}
+
+Equilibrium along(const Curve& curve, const Design& design) {
+  const double first = turn_to(curve.at(0), design.from), last = turn_to(curve.at(curve.length()), design.to);
+  double twist = std::remainder(last - first, 2 * units::pi) + 2 * units::pi * design.turns;
+  Equilibrium out;
+  const int segments = std::max(design.rod.segments, 2);
+  for (int i = 0; i <= segments; ++i) {
+    const double share = static_cast<double>(i) / segments;
+    const Frame frame = curve.at(share * curve.length());
+    out.s.push_back(share * curve.length());
+    out.points.push_back(frame.at);
+    out.rotations.push_back(frame.rotation * exp_rotation((first + share * twist) * Vec3::UnitZ()));
+  }
+  return out;
+}
+
+std::optional<Equilibrium> along_shape(const Rod& rod, const Frame& from, const Frame& to) {
+  if (!rod.shape) return std::nullopt;
+  const Frame place = from * rod.shape(0).inverse();
+  if (((place * rod.shape(rod.length)).at - to.at).norm() > 0.1 * rod.length) return std::nullopt;
+  Equilibrium out;
+  const int segments = std::max(rod.segments, 2);
+  for (int i = 0; i <= segments; ++i) {
+    const double s = rod.length * i / segments;
+    const Frame frame = place * rod.shape(s);
+    out.s.push_back(s);
+    out.points.push_back(frame.at);
+    out.rotations.push_back(frame.rotation);
+  }
+  return out;
+}
+
+}  // namespace
+
+std::optional<Equilibrium> guess_along_route(const Design& design) {
+  if (design.route) return along(*design.route, design);
+  return along_shape(design.rod, design.from, design.to);
+}
+
+}  // namespace tendril::routing
