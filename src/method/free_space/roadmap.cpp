@@ -39,17 +39,23 @@ Roadmap::Roadmap(const FreeSpace& space, double step, const RunContext& context)
   if (!(step > 0) || !std::isfinite(step)) throw UsageError("grid: its step is " + number_text(step) + " m; a length above 0 expected");
   const Eigen::AlignedBox3d& region = space.region();
   corner_ = region.min();
-  double count = 1;
-  for (int k = 0; k < 3; ++k) count *= std::floor(region.sizes()[k] / step) + 1;
+  double count = 1;  // a region of whole steps has a node on either side, whatever rounding says
+  for (int k = 0; k < 3; ++k) count *= std::floor(region.sizes()[k] / step + 1e-9) + 1;
   if (!(count <= most_nodes))
     throw UsageError("grid: a step of " + number_text(step / units::mm) + " mm makes " + number_text(std::round(count / 1e6)) +
                      " million nodes, at most 30 million expected; take a larger 'grid' or a box to 'keep_in'");
-  for (int k = 0; k < 3; ++k) size_[k] = static_cast<int>(std::floor(region.sizes()[k] / step)) + 1;
+  for (int k = 0; k < 3; ++k) size_[k] = static_cast<int>(std::floor(region.sizes()[k] / step + 1e-9)) + 1;
   // Nodes that are free by D are joined by edges whose middles are at least D - step sqrt(3) / 2 from everything: above 0, so that
-  // no surface lies between, up to step = 1.15 D.
-  edges_are_free_ = !space.has_obstacles() || step <= 1.15 * (space.demands().radius + space.demands().clearance);
+  // no surface lies between, up to step = 1.15 D. Of zones only the radius is kept clear.
+  const double kept_clear = space.demands().radius + (space.demands().keep_out.empty() ? space.demands().clearance : 0);
+  edges_are_free_ = !space.has_obstacles() || step <= 1.15 * kept_clear;
   free_.assign(static_cast<std::size_t>(count), 0);
-  const bool preferences = space.has_preferences();
+  classify(context);
+  if (!edges_are_free_) test_edges(context);
+}
+
+void Roadmap::classify(const RunContext& context) {
+  const bool preferences = space_.has_preferences();
   if (preferences) costs_.assign(free_.size(), 1.0f);
   const int workers = std::min(thread_count(context.threads), size_[2]);
   const int layer = size_[0] * size_[1];
@@ -64,6 +70,26 @@ Roadmap::Roadmap(const FreeSpace& space, double step, const RunContext& context)
       }
   });
   for (const long n : found) free_nodes_ += n;
+}
+
+/// Each edge once: from the node with the lower number.
+void Roadmap::test_edges(const RunContext& context) {
+  open_.assign(free_.size(), 0);
+  const int workers = std::min(thread_count(context.threads), size_[2]);
+  const int layer = size_[0] * size_[1];
+  run_workers(workers, [&](int worker) {
+    for (int z = worker; z < size_[2] && !context.stop(); z += workers)
+      for (int i = z * layer; i < (z + 1) * layer; ++i) {
+        if (!free_[i]) continue;
+        const std::array<int, 3> here = cell(i);
+        for (int n = 13; n < 26; ++n) {
+          const std::array<int, 3>& by = neighbours()[n].offset;
+          const std::array<int, 3> there{here[0] + by[0], here[1] + by[1], here[2] + by[2]};
+          if (holds(there) && free_[node(there)] && space_.is_free(place(i), place(node(there))))
+            open_[i] = static_cast<std::uint16_t>(open_[i] | 1u << (n - 13));
+        }
+      }
+  });
 }
 
 std::array<int, 3> Roadmap::cell(int node) const {
@@ -86,7 +112,12 @@ std::array<int, 3> Roadmap::nearest(const Vec3& p) const {
 }
 
 bool Roadmap::passes(int from, int to) const {
-  return free_[from] && free_[to] && (edges_are_free_ || space_.is_free(place(from), place(to)));
+  if (!free_[from] || !free_[to]) return false;
+  if (edges_are_free_) return true;
+  if (from > to) std::swap(from, to);
+  const std::array<int, 3> a = cell(from), b = cell(to);
+  const int n = b[0] - a[0] + 1 + 3 * (b[1] - a[1] + 1 + 3 * (b[2] - a[2] + 1));
+  return open_[from] >> (n - 14) & 1;  // by offset 27 places, the node itself in the middle
 }
 
 float Roadmap::cost_between(int from, int to, float steps) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -35,8 +36,11 @@ class Roadmap {
     float steps;
   };
   static const std::array<Neighbour, 26>& neighbours();
-  /// Between two free neighbours. Where the step is at most 1.15 times radius plus clearance both ends being free is enough.
+  /// Between two free neighbours. Where the step is at most 1.15 times what is kept clear of, both ends being free is enough: no
+  /// surface lies between. Else the straight between them keeps what is demanded.
   bool passes(int from, int to) const;
+  /// What the way between two free neighbours costs (m, by FreeSpace::cost), `steps` as in Neighbour.
+  float cost_between(int from, int to, float steps) const;
 
   /// What it costs to get to the goals from each node (m, by FreeSpace::cost), each goal beginning with a cost of its own; infinite
   /// where no way leads.
@@ -48,7 +52,8 @@ class Roadmap {
   std::vector<float> costs_to(const std::vector<Goal>& goals) const;
 
  private:
-  float cost_between(int from, int to, float steps) const;
+  void classify(const RunContext& context);
+  void test_edges(const RunContext& context);
 
   const FreeSpace& space_;
   double step_;
@@ -56,6 +61,7 @@ class Roadmap {
   Vec3 corner_;
   std::array<int, 3> size_ = {1, 1, 1};
   std::vector<char> free_;
+  std::vector<std::uint16_t> open_;  ///< by node a bit for each of the last thirteen neighbours; empty where edges_are_free_
   std::vector<float> costs_;  ///< per metre, by node; empty where nothing is preferred
   long free_nodes_ = 0;
 };

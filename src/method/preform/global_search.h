@@ -4,6 +4,7 @@
 // the two ends, until no path is left.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "method/preform/options.h"
@@ -11,11 +12,15 @@
 namespace tendril::preform {
 
 struct GlobalPaths {
-  std::vector<std::vector<Vec3>> paths;  ///< from start to finish, m; the shortest first
+  /// From start to finish, m; the cheapest first. The first and last edges are the straights at the ends.
+  std::vector<std::vector<Vec3>> paths;
   long nodes = 0, free_nodes = 0;
-  /// Empty, or what keeps the ends apart: "start: 3.2 mm from 'bay', 20 required", "no passage of 36 mm ...".
+  /// Empty, or what keeps the ends apart: "start: the hose is 3.2 mm too near to 'bay' ...", "no passage for a radius + clearance of
+  /// 20 mm: the widest one found, at ...".
   std::string obstruction;
 };
+
+/// Throws UsageError for a grid with too many nodes (Roadmap). Stopped by `context`: the paths found so far, and no obstruction.
 GlobalPaths global_search(const FreeSpace& space, const Options& options, const RunContext& context = {});
 
 }  // namespace tendril::preform

@@ -1,0 +1,68 @@
+#include "method/preform/global_search.h"
+
+#include <algorithm>
+
+#include "method/free_space/bottleneck.h"
+#include "method/preform/end_lead.h"
+#include "method/preform/path_search.h"
+
+namespace tendril::preform {
+namespace {
+
+/// Of the first path: ends that are near each other must not keep all that lies between them.
+constexpr double largest_kept_share = 0.35;
+
+/// About an end nothing is excluded: around the connection, and behind the straight that leaves it.
+struct KeptEnd {
+  Vec3 end, tip;
+  static constexpr double tie = 1e-9;  ///< m: nodes may lie at exactly that distance
+  double around_end, around_tip;       ///< m
+  KeptEnd(const Vec3& end, const EndLead& lead, double radius)
+      : end(end), tip(lead.tip), around_end(radius), around_tip(std::max(radius - lead.length, 0.5 * radius)) {}
+  bool holds(const Vec3& p) const { return (p - end).norm() <= around_end + tie || (p - tip).norm() <= around_tip + tie; }
+};
+
+double length_of(const std::vector<Vec3>& points) {
+  double length = 0;
+  for (std::size_t i = 1; i < points.size(); ++i) length += (points[i] - points[i - 1]).norm();
+  return length;
+}
+
+}  // namespace
+
+GlobalPaths global_search(const FreeSpace& space, const Options& options, const RunContext& context) {
+  GlobalPaths found;
+  const Ends& ends = options.ends;
+  const EndLead start = end_lead(space, options.curve, ends.start, ends.start_along, options.curve.start_cone, "start");
+  const EndLead finish = end_lead(space, options.curve, ends.finish, -ends.finish_along, options.curve.finish_cone, "finish");
+  found.obstruction = !start.obstruction.empty() ? start.obstruction : finish.obstruction;
+  if (!found.obstruction.empty()) return found;
+
+  const routing::Roadmap roadmap(space, options.grid, context);
+  found.nodes = roadmap.nodes();
+  found.free_nodes = roadmap.free_nodes();
+  if (context.stop()) return found;
+  PathSearch search(space, roadmap, start.tip, finish.tip);
+  double kept = options.exclusion_ends;
+  while (static_cast<int>(found.paths.size()) < options.max_paths && !context.stop()) {
+    const PathSearch::Path path = search.shortest(context);
+    if (path.places.empty()) break;
+    std::vector<Vec3> whole{ends.start};
+    if (start.length > 0) whole.push_back(start.tip);
+    whole.insert(whole.end(), path.places.begin() + 1, path.places.end() - 1);
+    if (finish.length > 0) whole.push_back(finish.tip);
+    whole.push_back(ends.finish);
+    if (found.paths.empty()) kept = std::min(kept, largest_kept_share * length_of(path.places));
+    found.paths.push_back(std::move(whole));
+    const KeptEnd first(ends.start, start, kept), last(ends.finish, finish, kept);
+    // A path that loses none of its own nodes would be found again.
+    if (search.exclude_around(path, options.exclusion, [&](const Vec3& p) { return first.holds(p) || last.holds(p); }) == 0) break;
+  }
+  if (found.paths.empty() && !context.stop()) {
+    const routing::Bottleneck narrow = routing::bottleneck_between(space, start.tip, finish.tip, options.grid, context);
+    if (narrow.kind != routing::Bottleneck::Kind::stopped) found.obstruction = text_of(narrow, space, options.grid);
+  }
+  return found;
+}
+
+}  // namespace tendril::preform

@@ -1,0 +1,69 @@
+// Shortest paths through a roadmap from which more and more is taken away.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "base/run_context.h"
+#include "method/free_space/roadmap.h"
+
+namespace tendril::preform {
+
+/// From one place to another, both joined to the nodes around them. Distances to the finish through all free nodes are found once;
+/// they never overestimate those that are left when nodes are excluded, and guide every search (A*). Ties are broken by node.
+class PathSearch {
+ public:
+  /// An end is joined to nodes up to so many steps away: not a distance that nodes of a grid have, so that rounding decides nothing.
+  static constexpr double joined_steps = 2.37;
+
+  PathSearch(const routing::FreeSpace& space, const routing::Roadmap& roadmap, const Vec3& start, const Vec3& finish);
+
+  /// A way and its cost (m, by FreeSpace::cost).
+  struct Path {
+    std::vector<Vec3> places;  ///< start, nodes, finish; m. Empty: there is none
+    std::vector<int> nodes;
+    double cost = 0;
+  };
+  /// The cheapest path without excluded nodes. Stopped by `context`: none.
+  Path shortest(const RunContext& context = {}) const;
+
+  /// Takes away the nodes within `radius` (m) of a path's, but for those that `is_kept` holds for. Returns how many nodes of the
+  /// path itself are among them.
+  template <class IsKept>
+  int exclude_around(const Path& path, double radius, const IsKept& is_kept);
+
+ private:
+  using Goal = routing::Roadmap::Goal;
+  std::vector<Goal> joined(const Vec3& end) const;
+
+  const routing::FreeSpace& space_;
+  const routing::Roadmap& roadmap_;
+  Vec3 start_, finish_;
+  std::vector<Goal> starts_, finishes_;
+  std::vector<float> to_finish_;  ///< by node
+  std::vector<char> excluded_;    ///< by node
+};
+
+template <class IsKept>
+int PathSearch::exclude_around(const Path& path, double radius, const IsKept& is_kept) {
+  const int reach = static_cast<int>(radius / roadmap_.step() + 1e-9);
+  for (const int node : path.nodes) {
+    const std::array<int, 3> at = roadmap_.cell(node);
+    for (int z = -reach; z <= reach; ++z)
+      for (int y = -reach; y <= reach; ++y)
+        for (int x = -reach; x <= reach; ++x) {
+          const std::array<int, 3> cell{at[0] + x, at[1] + y, at[2] + z};
+          if (!roadmap_.holds(cell)) continue;
+          char& excluded = excluded_[roadmap_.node(cell)];
+          if (excluded || roadmap_.step() * std::sqrt(double(x * x + y * y + z * z)) > radius + 1e-9) continue;
+          excluded = !is_kept(roadmap_.place(roadmap_.node(cell)));
+        }
+  }
+  // None of them was excluded before, or the path would not have gone there.
+  int taken = 0;
+  for (const int node : path.nodes) taken += excluded_[node];
+  return taken;
+}
+
+}  // namespace tendril::preform
