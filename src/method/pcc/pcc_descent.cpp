@@ -14,6 +14,8 @@ namespace {
 // Penalty weights times the smallest radius: the first lets a curve pull itself tight, the second leaves misses of less than
 // a thousandth of the radius. A softer start would cut through walls.
 constexpr double first_weight = 5, second_weight = 500;
+// What misses its demands by this share of the radius after the second weight has nowhere to go.
+constexpr double hopeless = 0.2;
 // Turns below this (rad) are no bends. What leaving one out moves is a thousandth of what counts as kept.
 constexpr double no_bend = 1e-8;
 
@@ -46,19 +48,18 @@ struct Descent {
     }
   }
 
-  /// Augmented Lagrangian: multipliers until the demands hold to rounding.
-  void polish() {
-    terms.plan(x, options.sample);
-    Eigen::VectorXd gradient(x.size());
+  /// Augmented Lagrangian: multipliers, from those there are, until demands are missed by no more than `mismatch` (m).
+  void hold(double mismatch, int rounds, double gradient, double decrease) {
+    Eigen::VectorXd slope(x.size());
     double before = std::numeric_limits<double>::infinity();
-    for (int round = 0; round < 30 && !context.stop(); ++round) {
-      settle(1e-9, 0);
-      terms(x, gradient);
-      const double mismatch = terms.mismatch();
-      if (mismatch < 1e-11 * unit) return;
+    for (int round = 0; round < rounds && !context.stop(); ++round) {
+      terms(x, slope);
+      const double missed = terms.mismatch();
+      if (missed < mismatch || missed > hopeless * unit) return;
       terms.update_multipliers();
-      if (mismatch > 0.25 * before && terms.weight < 1e5 / unit) terms.weight *= 4;
-      before = mismatch;
+      if (missed > 0.25 * before && terms.weight < 1e5 / unit) terms.weight *= 4;
+      before = missed;
+      settle(gradient, decrease);
     }
   }
 };
@@ -74,6 +75,20 @@ PccPoints cleaned(const PccShape& shape, const std::vector<double>& radii) {
   }
   curve.points.push_back(shape.points.back());
   return curve;
+}
+
+/// The straight, or a single bend between directions that are fixed: nothing is left to choose.
+DescentResult settled(const FreeSpace& space, const Ends& ends, const PccPoints& seed, const DescentOptions& options) {
+  DescentResult result;
+  result.curve = {{ends.start, ends.finish}, seed.radii};
+  if (seed.bends() == 1) result.curve.points.insert(result.curve.points.begin() + 1, crossing(ends));
+  result.length = result.objective = result.curve.length();
+  if (!space.has_preferences()) return result;
+  for (const PccPiece& piece : pieces_of(result.curve)) {
+    const int count = std::clamp(static_cast<int>(std::ceil(piece.length / options.sample)), 1, 100000);
+    for (int i = 0; i < count; ++i) result.objective += (space.cost(piece.at((i + 0.5) / count)) - 1) * piece.length / count;
+  }
+  return result;
 }
 
 void check(const PccPoints& seed, const DescentOptions& options) {
@@ -94,25 +109,23 @@ void check(const PccPoints& seed, const DescentOptions& options) {
 DescentResult descend(const FreeSpace& space, const PccDemands& demands, const Ends& ends, const PccPoints& seed,
                       const DescentOptions& options, const RunContext& context) {
   check(seed, options);
-  DescentResult result;
-  if (seed.bends() == 0) {
-    // Nothing is left to choose.
-    result.curve = {{ends.start, ends.finish}, {}};
-    result.length = result.objective = result.curve.length();
-    return result;
-  }
+  if (seed.bends() == 0 || (seed.bends() == 1 && !(demands.start_cone > 0 || demands.finish_cone > 0))) return settled(space, ends, seed, options);
   PccUnknowns unknowns(demands, ends, seed.radii);
   PccTerms terms(space, demands, unknowns, options.margin);
   Descent descent{options, context, unknowns, terms, *std::min_element(seed.radii.begin(), seed.radii.end()), unknowns.nearest(seed)};
   if (!options.polish) {
     descent.penalize(first_weight, 1e-2, 1e-4);
     descent.penalize(second_weight, 1e-3, 1e-6);
+    descent.hold(5e-6 * descent.unit, 6, 1e-3, 1e-7);
   } else {
     descent.penalize(second_weight, 1e-5, 1e-9);
     // Turns up to the largest that is allowed have their true tangents now.
-    unknowns.linear_from = std::clamp(demands.max_turn + 0.02, 2.75, 3.12);
-    descent.polish();
+    unknowns.linear_from = std::clamp(demands.max_turn + 0.05, 2.75, 3.1);
+    terms.plan(descent.x, options.sample);
+    descent.settle(1e-9, 0);
+    descent.hold(1e-11 * descent.unit, 30, 1e-9, 0);
   }
+  DescentResult result;
   PccShape shape;
   unknowns.evaluate(descent.x, shape);
   result.curve = cleaned(shape, seed.radii);

@@ -53,7 +53,9 @@ void PccTerms::add_demands(double& sum) {
     const double by = penalty(term++, shape_.straights[i] - least, sum);
     if (by != 0) adjoint_.add_straight(shape_, i, by);
   }
-  for (int i = 0; i < m; ++i) adjoint_.turns[i] -= unit_ * penalty(term++, unit_ * (demands_.max_turn - shape_.turns[i]), sum);
+  // Where tangents are not what they are in truth a curve could fold up for free.
+  const double most = std::min(demands_.max_turn, unknowns_.linear_from - 0.05);
+  for (int i = 0; i < m; ++i) adjoint_.turns[i] -= unit_ * penalty(term++, unit_ * (most - shape_.turns[i]), sum);
   double by_length = penalty(term++, shape_.length - demands_.min_length, sum);
   by_length -= std::isfinite(demands_.max_length) ? penalty(term, demands_.max_length - shape_.length, sum) : 0;
   ++term;

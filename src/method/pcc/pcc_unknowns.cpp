@@ -23,6 +23,15 @@ void add_turn(const Vec3& in, const Vec3& out, double by, Vec3* to_in, Vec3* to_
 
 }  // namespace
 
+Vec3 crossing(const Ends& ends) {
+  const Vec3 between = ends.finish - ends.start;
+  const double cosine = ends.start_along.dot(ends.finish_along), squared_sine = ends.start_along.cross(ends.finish_along).squaredNorm();
+  if (!(squared_sine > 1e-20)) return ends.start + 0.5 * between;
+  const double p = between.dot(ends.start_along), q = between.dot(ends.finish_along);
+  const double along = std::max(0.0, (p - cosine * q) / squared_sine), back = std::max(0.0, (q - cosine * p) / squared_sine);
+  return 0.5 * (ends.start + along * ends.start_along + ends.finish - back * ends.finish_along);
+}
+
 void PccAdjoint::reset(int bends) {
   points.assign(bends + 2, Vec3::Zero());
   along.assign(bends + 1, Vec3::Zero());

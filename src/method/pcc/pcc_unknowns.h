@@ -33,6 +33,9 @@ struct PccAdjoint {
   void add_length(const PccShape& shape, const std::vector<double>& radii, double by);  ///< of PccShape::length
 };
 
+/// Where a single vertex is nearest to being on both ends' directions, m.
+Vec3 crossing(const Ends& ends);
+
 class PccUnknowns {
  public:
   /// Throws UsageError for no bend at all, radii that are not finite and positive, and ends that are not finite or have no
