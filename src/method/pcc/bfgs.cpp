@@ -17,9 +17,11 @@ constexpr double rounding = 1e-15;
 /// The state of one minimisation; allocates before the first iteration only.
 class Bfgs {
  public:
-  Bfgs(const BfgsFunction& function, VectorXd& x, const BfgsOptions& options)
+  Bfgs(const BfgsFunction& function, VectorXd& x, const BfgsOptions& options, Eigen::MatrixXd& inverse)
       : function_(function), options_(options), x_(x), gradient_(x.size()), direction_(x.size()), tried_(x.size()),
-        tried_gradient_(x.size()), change_(x.size()), product_(x.size()), inverse_(Eigen::MatrixXd::Identity(x.size(), x.size())) {}
+        tried_gradient_(x.size()), change_(x.size()), product_(x.size()), inverse_(inverse), fresh_(inverse.rows() != x.size()) {
+    if (fresh_) inverse_.setIdentity(x.size(), x.size());
+  }
 
   BfgsResult run(const RunContext& context) {
     value_ = function_(x_, gradient_);
@@ -47,6 +49,7 @@ class Bfgs {
     result.value = value_;
     return result;
   }
+  bool is_fresh() const { return fresh_; }
 
  private:
   bool step() {
@@ -111,15 +114,21 @@ class Bfgs {
   const BfgsOptions& options_;
   VectorXd& x_;
   VectorXd gradient_, direction_, tried_, tried_gradient_, change_, product_;
-  Eigen::MatrixXd inverse_;
+  Eigen::MatrixXd& inverse_;
   double value_ = 0;
-  bool fresh_ = true;  ///< nothing is known of the curvature yet
+  bool fresh_;  ///< nothing is known of the curvature yet
 };
 
 }  // namespace
 
-BfgsResult minimize(const BfgsFunction& function, VectorXd& x, const BfgsOptions& options, const RunContext& context) {
-  return Bfgs(function, x, options).run(context);
+BfgsResult minimize(const BfgsFunction& function, VectorXd& x, const BfgsOptions& options, const RunContext& context,
+                    Eigen::MatrixXd* inverse) {
+  Eigen::MatrixXd own;
+  Eigen::MatrixXd& known = inverse ? *inverse : own;
+  Bfgs bfgs(function, x, options, known);
+  const BfgsResult result = bfgs.run(context);
+  if (bfgs.is_fresh()) known.resize(0, 0);
+  return result;
 }
 
 }  // namespace tendril::routing

@@ -27,6 +27,9 @@ using BfgsFunction = std::function<double(const Eigen::VectorXd& x, Eigen::Vecto
 
 /// Lowers the function from x, where it must be finite, and leaves the best point in x. Steps satisfy the weak Wolfe
 /// conditions, with which BFGS also gets along with the kinks of distances (Lewis and Overton, 2013).
-BfgsResult minimize(const BfgsFunction& function, Eigen::VectorXd& x, const BfgsOptions& options, const RunContext& context = {});
+/// `inverse`: what is known of the inverse Hessian, from an earlier call for a function that differs little; of any other size than
+/// that of x: nothing. What is known afterwards.
+BfgsResult minimize(const BfgsFunction& function, Eigen::VectorXd& x, const BfgsOptions& options, const RunContext& context = {},
+                    Eigen::MatrixXd* inverse = nullptr);
 
 }  // namespace tendril::routing

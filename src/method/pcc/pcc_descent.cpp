@@ -28,6 +28,7 @@ struct Descent {
   double unit;  ///< m, the smallest radius
   Eigen::VectorXd x;
   int iterations = 0;
+  Eigen::MatrixXd inverse = {};  ///< of BFGS, where it goes on from the minimum before
 
   /// To the minimum for the weights and multipliers there are.
   void settle(double gradient, double decrease) {
@@ -36,11 +37,13 @@ struct Descent {
     bfgs.gradient = gradient;
     bfgs.decrease = decrease;
     bfgs.largest_step = unit;
-    iterations += minimize([this](const Eigen::VectorXd& at, Eigen::VectorXd& by) { return terms(at, by); }, x, bfgs, context).iterations;
+    const auto function = [this](const Eigen::VectorXd& at, Eigen::VectorXd& by) { return terms(at, by); };
+    iterations += minimize(function, x, bfgs, context, &inverse).iterations;
   }
 
   void penalize(double weight, double gradient, double decrease) {
     terms.weight = weight / unit;
+    inverse.resize(0, 0);
     for (int round = 0; round < 3 && !context.stop(); ++round) {
       if (round > 0 && terms.planned(x)) return;
       terms.plan(x, options.sample);
@@ -48,16 +51,18 @@ struct Descent {
     }
   }
 
-  /// Augmented Lagrangian: multipliers, from those there are, until demands are missed by no more than `mismatch` (m).
-  void hold(double mismatch, int rounds, double gradient, double decrease) {
+  /// Augmented Lagrangian: multipliers, from those there are, until the curve's own demands are missed by no more than
+  /// `mismatch`, and its distances by no more than `gap_mismatch` (m); 0: those stay with their penalties.
+  void hold(double mismatch, double gap_mismatch, int rounds, double gradient, double decrease) {
     Eigen::VectorXd slope(x.size());
     double before = std::numeric_limits<double>::infinity();
     for (int round = 0; round < rounds && !context.stop(); ++round) {
       terms(x, slope);
-      const double missed = terms.mismatch();
-      if (missed < mismatch || missed > hopeless * unit) return;
-      terms.update_multipliers();
-      if (missed > 0.25 * before && terms.weight < 1e5 / unit) terms.weight *= 4;
+      const double own = terms.mismatch(), gaps = gap_mismatch > 0 ? terms.gap_mismatch() : 0;
+      if ((own <= mismatch && gaps <= gap_mismatch) || own > hopeless * unit) return;
+      terms.update_multipliers(gap_mismatch > 0);
+      const double missed = gaps > gap_mismatch ? std::max(own, mismatch / gap_mismatch * gaps) : own;
+      if (missed > 0.25 * before && terms.weight < 2 * second_weight / unit) terms.weight *= 2;
       before = missed;
       settle(gradient, decrease);
     }
@@ -113,17 +118,20 @@ DescentResult descend(const FreeSpace& space, const PccDemands& demands, const E
   PccUnknowns unknowns(demands, ends, seed.radii);
   PccTerms terms(space, demands, unknowns, options.margin);
   Descent descent{options, context, unknowns, terms, *std::min_element(seed.radii.begin(), seed.radii.end()), unknowns.nearest(seed)};
+  const double unit = descent.unit;
   if (!options.polish) {
+    terms.slack = 1e-5 * unit;
     descent.penalize(first_weight, 1e-2, 1e-4);
     descent.penalize(second_weight, 1e-3, 1e-6);
-    descent.hold(5e-6 * descent.unit, 6, 1e-3, 1e-7);
+    descent.hold(5e-6 * unit, 0, 6, 1e-3, 1e-7);
   } else {
+    terms.slack = 1e-10 * unit;
     descent.penalize(second_weight, 1e-5, 1e-9);
     // Turns up to the largest that is allowed have their true tangents now.
     unknowns.linear_from = std::clamp(demands.max_turn + 0.05, 2.75, 3.1);
     terms.plan(descent.x, options.sample);
-    descent.settle(1e-9, 0);
-    descent.hold(1e-11 * descent.unit, 30, 1e-9, 0);
+    descent.settle(1e-7, 1e-12);
+    descent.hold(2e-11 * unit, 2e-5 * unit, 15, 1e-7, 1e-12);
   }
   DescentResult result;
   PccShape shape;

@@ -15,6 +15,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 PccTerms::PccTerms(const FreeSpace& space, const PccDemands& demands, const PccUnknowns& unknowns, double margin)
     : space_(space), demands_(demands), unknowns_(unknowns), margin_(margin),
       unit_(*std::min_element(unknowns.radii().begin(), unknowns.radii().end())),
+      // A length changes by at most 2 with a vertex; what a metre costs more by a preference adds to it.
+      most_(4 * (1 + (space.has_preferences() ? space.demands().preference : 0))),
       sampled_(space.has_obstacles() || space.demands().keep_in || space.has_preferences()) {
   const int m = unknowns.bends();
   // Straights, turns, least and largest length, both ends.
@@ -50,7 +52,7 @@ void PccTerms::add_demands(double& sum) {
   int term = 0;
   for (int i = 0; i <= m; ++i) {
     const double least = i == 0 || i == m ? demands_.end_straight : demands_.min_straight;
-    const double by = penalty(term++, shape_.straights[i] - least, sum);
+    const double by = penalty(term++, shape_.straights[i] - least - slack, sum);
     if (by != 0) adjoint_.add_straight(shape_, i, by);
   }
   // Where tangents are not what they are in truth a curve could fold up for free.
@@ -112,15 +114,19 @@ double PccTerms::objective(const Eigen::VectorXd& x) {
   return sum;
 }
 
-void PccTerms::update_multipliers() {
-  for (std::size_t i = 0; i < multipliers_.size(); ++i)
+void PccTerms::update_multipliers(bool with_gaps) {
+  const int count = with_gaps ? static_cast<int>(multipliers_.size()) : fixed_;
+  for (int i = 0; i < count; ++i) {
     multipliers_[i] = slacks_[i] < infinity ? std::max(0.0, multipliers_[i] - 2 * weight * slacks_[i]) : 0;
+    if (i >= fixed_) multipliers_[i] = std::min(multipliers_[i], most_);
+  }
 }
 
-double PccTerms::mismatch() const {
+double PccTerms::mismatch(int from, int to) const {
   double worst = 0;
-  for (std::size_t i = 0; i < multipliers_.size(); ++i)
-    worst = std::max(worst, std::abs(std::min(multipliers_[i] / (2 * weight), slacks_[i])));
+  for (int i = from; i < to; ++i)
+    if (i < fixed_ || multipliers_[i] < most_ || slacks_[i] > 0)
+      worst = std::max(worst, std::abs(std::min(multipliers_[i] / (2 * weight), slacks_[i])));
   return worst;
 }
 

@@ -16,6 +16,7 @@ class PccTerms {
   PccTerms(const FreeSpace& space, const PccDemands& demands, const PccUnknowns& unknowns, double margin);
 
   double weight = 1;  ///< 1/m
+  double slack = 0;   ///< m, kept on top of the straights that are demanded, so that arcs do not overlap by what is left to miss
 
   /// Places samples along the curve anew, and forgets their multipliers; see PccSamples::plan.
   void plan(const Eigen::VectorXd& x, double spacing);
@@ -27,16 +28,19 @@ class PccTerms {
   /// Without penalties, m. At x.
   double objective(const Eigen::VectorXd& x);
 
-  /// New multipliers from the slacks of the last evaluation.
-  void update_multipliers();
+  /// New multipliers from the slacks of the last evaluation; those of the surroundings only if asked for. They stay below what a
+  /// curve can push with: where fixed ends are nearer than the margin no multiplier would help.
+  void update_multipliers(bool with_gaps);
   /// How far the last evaluation was from the solution of the constrained problem: the largest miss, or multiplier of a demand
-  /// that has slack, m.
-  double mismatch() const;
+  /// that is more than kept, m; of the curve's own demands and of the distances to its surroundings (but for those beyond help).
+  double mismatch() const { return mismatch(0, fixed_); }
+  double gap_mismatch() const { return mismatch(fixed_, static_cast<int>(slacks_.size())); }
   int queries() const { return queries_; }  ///< exact gaps that were asked for
 
  private:
   /// Adds the penalty for a slack and returns its derivative.
   double penalty(int term, double slack, double& sum);
+  double mismatch(int from, int to) const;
   void add_demands(double& sum);
   double add_samples(double& sum);
 
@@ -44,6 +48,7 @@ class PccTerms {
   const PccDemands& demands_;
   const PccUnknowns& unknowns_;
   double margin_, unit_;  ///< unit_: m per rad
+  double most_;           ///< multiplier of a gap
   PccShape shape_;
   PccAdjoint adjoint_;
   PccSamples samples_;

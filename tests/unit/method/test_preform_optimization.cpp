@@ -164,23 +164,23 @@ TEST_CASE("preform: the same hose backwards, moved, turned and at another size")
   SpaceDemands demands{0.01, 0.01, {}, {}, 0, 0.1};
   const double radius = 0.05;
   const Options options = options_for(ends, radius, 0.01);
-  const FreeSpace space(round.scene(Sphere{round.obstacle}), demands, {ends.start, ends.finish}, 0.2);
+  const FreeSpace space(round.scene(Cylinder{round.obstacle, 1}), demands, {ends.start, ends.finish}, 0.2);
   const Optimized best = best_of(space, options, paths);
   REQUIRE(std::isfinite(best.length));
 
   GlobalPaths back = paths;
   std::reverse(back.paths[0].begin(), back.paths[0].end());
   const Ends reversed{ends.finish, -ends.finish_along, ends.start, -ends.start_along};
-  CHECK(best_of(space, options_for(reversed, radius, 0.01), back).length == Approx(best.length).epsilon(1e-5));
+  CHECK(best_of(space, options_for(reversed, radius, 0.01), back).length == Approx(best.length).epsilon(1e-3));
 
   const Quat turn(Eigen::AngleAxisd(1.1, Vec3(1, 2, -1).normalized()));
   for (const double scale : {1.0, 0.1, 20.0}) {
     const Vec3 by(0.3, -2, 0.7);
-    PlacedObstacle ball{"round", {}, 0};
-    ball.body.shape = Sphere{scale * round.obstacle};
-    ball.body.pose.at = by;
+    PlacedObstacle post{"round", {}, 0};
+    post.body.shape = Cylinder{scale * round.obstacle, scale * 1};
+    post.body.pose = Frame{by, turn};
     Scene scene;
-    scene.add(ball);
+    scene.add(post);
     const Ends there = moved(ends, turn, by, scale);
     GlobalPaths path = paths;
     for (Vec3& p : path.paths[0]) p = scale * (turn * p) + by;
@@ -188,7 +188,7 @@ TEST_CASE("preform: the same hose backwards, moved, turned and at another size")
     scaled.grid *= scale;
     const FreeSpace around(scene, {scale * 0.01, scale * 0.01, {}, {}, 0, 0.1 * scale}, {there.start, there.finish}, 0.2 * scale);
     INFO("scale " << scale);
-    CHECK(best_of(around, scaled, path).length == Approx(scale * best.length).epsilon(scale < 1 ? 2e-3 : 2e-4));
+    CHECK(best_of(around, scaled, path).length == Approx(scale * best.length).epsilon(1e-3));
   }
 }
 
