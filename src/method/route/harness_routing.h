@@ -28,7 +28,8 @@ struct HarnessOptions {
   std::vector<std::string> names;          ///< of the connections, in messages and of rods; empty: "1", "2" ...
   std::vector<std::array<int, 2>> wires;   ///< pairs of connections, from 0; empty: each one with the first
   double bundling = 0.5;                   ///< 0: shortest wires ... 1: shortest harness; see harness_tree.h
-  double branch_cost = 0;                  ///< m, for each junction of three branches; twice for one of four
+  /// m: junctions nearer to each other than this along the tree become one. 0: twice end_straight, and min_bend_radius.
+  double min_branch = 0;
 
   Section section;                         ///< of every branch; space.radius follows from it
   SpaceDemands space;

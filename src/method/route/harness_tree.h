@@ -24,7 +24,6 @@ struct TreeOptions {
   /// links stay apart, each group with its own tree: length shared by two groups is not rewarded.
   std::vector<std::array<int, 2>> wires;
   double bundling = 0.5;       ///< 0 ... 1. Of trees that cost the same the one of least length: 0 counts as 1e-4
-  double branch_cost = 0;      ///< m, for each junction of three branches; twice for one of four
   double memory = 1e9;         ///< bytes, at most
 };
 
@@ -41,7 +40,7 @@ struct HarnessTree {
   Status status = Status::infeasible;       ///< solved, infeasible, cancelled, timeout
   std::vector<TreeBranch> branches;
   std::vector<int> junctions;               ///< nodes of the roadmap
-  double cost = 0;                          ///< m, of branches and junctions
+  double cost = 0;                          ///< m, of all branches
   double length = 0;                        ///< m, of all branches
   double cable_length = 0;                  ///< m, along the tree, over all wires
   /// Of an infeasible one: a connection and another that it shall be joined with but cannot reach, or twice the same one that has
