@@ -103,7 +103,11 @@ std::shared_ptr<SceneEquilibrium> DesignModel::verified(const VectorXd& x) const
 bool DesignModel::begin(const VectorXd& x) {
   const Design design = space_->design(unscaled(x));
   const std::optional<Equilibrium> guess = guess_along_route(design);
-  std::shared_ptr<SceneEquilibrium> first = solved(x, around_->all.get(), guess ? &*guess : nullptr, false);
+  const Equilibrium* from = guess ? &*guess : nullptr;
+  std::shared_ptr<SceneEquilibrium> first = solved(x, contact_, from, false);
+  // What runs from its connection through no surface is outside; else contact with everything finds a way in front of it.
+  const bool outside = first->ok() && (!around_->all || !first_crossing(*around_->all, first->rods.front().equilibrium.points));
+  if (!outside && !context_->stop()) first = solved(x, around_->all.get(), from, false);
   if (!first->ok() && guess && !context_->stop()) first = solved(x, around_->all.get(), nullptr, false);
   if (!first->ok()) {
     why_not_ = first->message();

@@ -32,8 +32,8 @@ class DesignModel final : public ConstrainedProblem {
   bool linearise(const std::vector<Tag>& always, Linear& out) override;
   Eigen::VectorXd slacks(const std::vector<Tag>& tags) override;
 
-  /// A first equilibrium at these variables in contact with everything, from the design's route; what it stands in front of is
-  /// outside. False: there is none.
+  /// A first equilibrium at these variables, from the design's route, that passes through nothing: where it stands is outside.
+  /// False: there is none.
   bool begin(const Eigen::VectorXd& x);
   const std::string& why_not() const { return why_not_; }
 

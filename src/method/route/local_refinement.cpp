@@ -97,7 +97,14 @@ class Refinement {
       }
       return merit;
     };
-    converged_ = search(task).converged;
+    // A simplex that has collapsed on a ridge sees it again from a new one.
+    for (double before = INFINITY; best < before * (1 - options_.tolerance) && task.max_evaluations > 0 && !context_.stop();) {
+      before = best;
+      const std::size_t used = model_.history().size();
+      converged_ = search(task).converged;
+      task.start = model_.accepted().x;
+      task.max_evaluations -= static_cast<int>(model_.history().size() - used);
+    }
   }
 
   /// Too long or too short to see a way: other lengths to start from.
