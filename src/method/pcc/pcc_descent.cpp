@@ -114,7 +114,8 @@ void check(const PccPoints& seed, const DescentOptions& options) {
 DescentResult descend(const FreeSpace& space, const PccDemands& demands, const Ends& ends, const PccPoints& seed,
                       const DescentOptions& options, const RunContext& context) {
   check(seed, options);
-  if (seed.bends() == 0 || (seed.bends() == 1 && !(demands.start_cone > 0 || demands.finish_cone > 0))) return settled(space, ends, seed, options);
+  const bool cones = demands.start_cone > 0 || demands.finish_cone > 0;
+  if (seed.bends() == 0 || (seed.bends() == 1 && !cones)) return settled(space, ends, seed, options);
   PccUnknowns unknowns(demands, ends, seed.radii);
   PccTerms terms(space, demands, unknowns, options.margin);
   Descent descent{options, context, unknowns, terms, *std::min_element(seed.radii.begin(), seed.radii.end()), unknowns.nearest(seed)};
@@ -122,8 +123,8 @@ DescentResult descend(const FreeSpace& space, const PccDemands& demands, const E
   if (!options.polish) {
     terms.slack = 1e-5 * unit;
     descent.penalize(first_weight, 1e-2, 1e-4);
-    descent.penalize(second_weight, 1e-3, 1e-6);
-    descent.hold(5e-6 * unit, 0, 6, 1e-3, 1e-7);
+    descent.penalize(second_weight, 1e-3, 1e-5);
+    descent.hold(5e-6 * unit, 0, 6, 1e-3, 1e-6);
   } else {
     terms.slack = 1e-10 * unit;
     descent.penalize(second_weight, 1e-5, 1e-9);

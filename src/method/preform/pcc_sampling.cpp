@@ -38,6 +38,11 @@ class Shortcuts {
       at_finish_[k] = blocked(lasts_[k], options.ends.finish) + away;
     }
     between_.resize(path_.size() * path_.size(), -1);
+    for (std::size_t k = 0; k < rooms.size(); ++k)
+      for (const Vec3& vertex : path_) {
+        from_first_[k].push_back(from_start(k, vertex) + blocked(firsts_[k], vertex));
+        to_last_[k].push_back(to_finish(k, vertex) + blocked(vertex, lasts_[k]));
+      }
   }
 
   /// The best with this many bends, at least 2.
@@ -55,7 +60,7 @@ class Shortcuts {
   /// What an edge costs by its length and what blocks it.
   double blocked(const Vec3& a, const Vec3& b) const {
     if (!space_.has_obstacles() && !space_.demands().keep_in) return 0;
-    const double length = (b - a).norm(), step = 0.5 * options_.grid;
+    const double length = (b - a).norm(), step = options_.grid;
     const int count = std::clamp(static_cast<int>(std::ceil(length / step)), 1, 1000);
     int missed = 0;
     for (int i = 0; i < count; ++i) {
@@ -110,7 +115,7 @@ class Shortcuts {
     std::vector<double> cost(count, infinity), next(count);
     for (int j = 0; j < count; ++j)
       for (std::size_t k = 0; k < firsts_.size(); ++k) {
-        const double sum = from_start(k, path_[j]) + uneven(firsts_[k], path_[j]) + blocked(firsts_[k], path_[j]);
+        const double sum = from_first_[k][j] + uneven(firsts_[k], path_[j]);
         if (sum < cost[j]) cost[j] = sum, from[0][j] = static_cast<int>(k);
       }
     for (int layer = 1; layer < inner; ++layer) {
@@ -124,7 +129,7 @@ class Shortcuts {
     int last = -1, finish = -1;
     for (int j = 0; j < count; ++j)
       for (std::size_t k = 0; k < lasts_.size(); ++k) {
-        const double sum = cost[j] + to_finish(k, path_[j]) + uneven(path_[j], lasts_[k]) + blocked(path_[j], lasts_[k]);
+        const double sum = cost[j] + to_last_[k][j] + uneven(path_[j], lasts_[k]);
         if (sum < least) least = sum, last = j, finish = static_cast<int>(k);
       }
     if (last < 0) return {};
@@ -144,6 +149,7 @@ class Shortcuts {
   double length_ = 0, mean_ = 1;
   std::array<Vec3, 5> firsts_, lasts_;
   std::array<double, 5> at_start_, at_finish_;
+  std::array<std::vector<double>, 5> from_first_, to_last_;  ///< by path vertex: of the ends' edges, but for their lengths
   std::vector<double> between_;  ///< blocked() by pairs of path vertices; -1: not known yet
 };
 
