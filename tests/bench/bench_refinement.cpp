@@ -1,5 +1,6 @@
 // Local refinement: with exact gradients against a search without derivatives to the same objective value (`gradient_share`: of
-// the seconds; where the search ends on a ridge, as it does with clips, of those until it gave up), and a hose in the engine bay of over a million triangles (assets/engine_bay.ply beside the program), trees already built.
+// the seconds; where the search ends on a ridge, as it does with clips, of those until it gave up), and a hose in the engine bay
+// of over a million triangles (assets/engine_bay.ply beside the program), trees already built.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>

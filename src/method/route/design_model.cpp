@@ -18,6 +18,7 @@ constexpr double gap_margin = 1e-5;      // m
 constexpr double share_margin = 1e-5;    // of bend radii, tensions and strains
 constexpr double seen_bend = 0.5, seen_room = 0.05;  // slacks and m beyond which nothing is looked at more closely
 constexpr std::size_t most_rooms = 24;
+constexpr int most_iterations = 150;     // from a design close by; a trial that needs more is not worth it
 
 /// Places that move with the mesh when lengths change: 3.25 is a quarter of the way from vertex 3 to vertex 4.
 double mesh_place(const std::vector<double>& s, double at) {
@@ -75,15 +76,16 @@ VectorXd DesignModel::start() const {
 }
 
 std::shared_ptr<SceneEquilibrium> DesignModel::solved(const VectorXd& x, const ContactField* contact, const Equilibrium* from,
-                                                      bool error) const {
+                                                      Purpose purpose) const {
   auto eq = std::make_shared<SceneEquilibrium>();
   SystemProblem system;
   system.rods.push_back(space_->problem(space_->design(unscaled(x)), gravity_));
   system.rods.front().surroundings = contact;
   SolveOptions options = options_->solve;
   options.clearance = ClearanceRule::judge;
-  options.error = error;
+  options.error = purpose == Purpose::last && options_->solve.error;
   options.follow = from != nullptr;
+  if (purpose == Purpose::trial) options.max_iterations = std::min(options.max_iterations, most_iterations);
   SystemEquilibrium warm;
   if (from) warm.rods.push_back(*from);
   eq->rods.push_back({options_->name, system.rods.front(), options, {}});
@@ -97,18 +99,18 @@ std::shared_ptr<SceneEquilibrium> DesignModel::solved(const VectorXd& x, const C
 }
 
 std::shared_ptr<SceneEquilibrium> DesignModel::verified(const VectorXd& x) const {
-  return solved(x, around_->all.get(), &accepted_.rod(), options_->solve.error);
+  return solved(x, around_->all.get(), &accepted_.rod(), Purpose::last);
 }
 
 bool DesignModel::begin(const VectorXd& x) {
   const Design design = space_->design(unscaled(x));
   const std::optional<Equilibrium> guess = guess_along_route(design);
   const Equilibrium* from = guess ? &*guess : nullptr;
-  std::shared_ptr<SceneEquilibrium> first = solved(x, contact_, from, false);
+  std::shared_ptr<SceneEquilibrium> first = solved(x, contact_, from, Purpose::first);
   // What runs from its connection through no surface is outside; else contact with everything finds a way in front of it.
   const bool outside = first->ok() && (!around_->all || !first_crossing(*around_->all, first->rods.front().equilibrium.points));
-  if (!outside && !context_->stop()) first = solved(x, around_->all.get(), from, false);
-  if (!first->ok() && guess && !context_->stop()) first = solved(x, around_->all.get(), nullptr, false);
+  if (!outside && !context_->stop()) first = solved(x, around_->all.get(), from, Purpose::first);
+  if (!first->ok() && guess && !context_->stop()) first = solved(x, around_->all.get(), nullptr, Purpose::first);
   if (!first->ok()) {
     why_not_ = first->message();
     return false;
@@ -121,7 +123,7 @@ bool DesignModel::begin(const VectorXd& x) {
 ConstrainedProblem::Value DesignModel::evaluate(const VectorXd& x) {
   State state;
   state.x = x;
-  const auto eq = solved(x, contact_, &accepted_.rod(), false);
+  const auto eq = solved(x, contact_, &accepted_.rod(), Purpose::trial);
   state.equilibrium = eq;
   state.value.valid = eq->ok();
   if (state.value.valid) {

@@ -63,8 +63,9 @@ class DesignModel final : public ConstrainedProblem {
 
  private:
   enum Kind { span, bend, room, tension, strain };
+  enum class Purpose { first, trial, last };
   std::shared_ptr<SceneEquilibrium> solved(const Eigen::VectorXd& x, const ContactField* contact, const Equilibrium* from,
-                                           bool error) const;
+                                           Purpose purpose) const;
   std::optional<Equilibrium> guess(const Design& design) const;
   double cost_at(const State& state, Eigen::VectorXd* slope, const SystemSensitivity* sensitivity) const;
   double cost_of_place(const Vec3& p, const Vec3& outside, double radius, Vec3* gradient) const;

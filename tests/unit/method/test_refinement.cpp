@@ -237,6 +237,41 @@ TEST_CASE("refinement: the same bits for any number of threads and every time", 
   CHECK(p == q);
 }
 
+TEST_CASE("refinement: the route decides on which side of an obstacle the hose runs, a mesh as much as a solid", "[refinement]") {
+  // A thin upright wall, open, halfway: over it, or to either side.
+  const double w = 0.12, h = 0.5;
+  PlacedObstacle wall;
+  wall.name = "wall";
+  wall.clearance = 0.015;
+  wall.body.shape = std::make_shared<const TriangleSurface>(
+      Mesh{"wall", {{0.4, -w, 0}, {0.4, w, 0}, {0.4, w, h}, {0.4, -w, h}}, {{0, 1, 2}, {0, 2, 3}}});
+  Scene scene(Vec3(0, 0, -9.81));
+  scene.add(wall);
+  std::vector<double> lengths;
+  for (const double side : {-1.0, 1.0}) {
+    Design design;
+    design.rod = Rod::uniform(1.1, soft_hose(), 50);
+    design.from = Frame::looking({0, 0, 0.4}, {1, 0.9 * side, 0}, {0, 0, 1});
+    design.to = Frame::looking({0.8, 0, 0.4}, {1, -0.9 * side, 0}, {0, 0, 1});
+    design.route = Curve::spline({design.from.at, {0.2, 0.15 * side, 0.4}, {0.4, 0.2 * side, 0.4}, {0.6, 0.15 * side, 0.4}, design.to.at},
+                                 {design.from.d3(), design.to.d3()});
+    const RefinementResult result = refine(scene, design, bend_and(0, 0.05));
+    INFO(result.message << ", length " << result.design.rod.length);
+    REQUIRE(result.ok);
+    const Frame middle = result.equilibrium->rods[0].equilibrium.frame_at(0.5 * result.design.rod.length);
+    CHECK(middle.at.y() * side > w + 0.01 + 0.015 - 1e-3);
+    CHECK(result.clearance.value == Approx(0.015).margin(3e-5));
+    CHECK(result.clearance.value >= 0.015);
+    CHECK(result.clearance_to == "wall");
+    // Not shorter than a string around the wall's edge, and not much longer.
+    const double string = 2 * std::hypot(0.4, w + 0.025);
+    CHECK(result.design.rod.length > string - 0.01);
+    CHECK(result.design.rod.length < 1.1 * string);
+    lengths.push_back(result.design.rod.length);
+  }
+  CHECK(lengths[0] == Approx(lengths[1]).epsilon(1e-5));
+}
+
 TEST_CASE("refinement: a preformed hose gets its length at the finish", "[refinement]") {
   Design design = preformed_design();
   const double before = design.rod.length;
