@@ -1,5 +1,5 @@
--- Two preformed coolant hoses for the heater. Which ways could the feed from the radiator take, and what would each cost the
--- supplier? Then, with the feed chosen, the return from the heater to the thermostat, which should run beside it.
+-- A preformed coolant hose for the heater. Which ways could it take from the radiator, and what would each ask of the bending
+-- machine? Then, with that hose chosen, a vacuum hose from the front to the firewall, which should run beside it.
 --
 --   scripts/run scripts/studies/preformed_hose.lua            the fine engine bay, over a million triangles
 --   scripts/run scripts/studies/preformed_hose.lua light      its light form
@@ -59,15 +59,16 @@ chosen:save(given.out .. "/heater_feed_centre_line.csv", {table = "centre_line"}
 chosen:save(given.out .. "/heater_feed.stl", {unit = "mm"})
 chosen:save(given.out .. "/heater_feed.glb")
 
--- The return runs beside it: the feed is an obstacle now, one to keep near. Distances that are known already stay known.
+-- A thinner hose runs beside it: the feed is an obstacle now, one to keep near. Distances that are known stay known.
 bay:obstacle("feed", chosen.mesh, {prefer = "near", clearance = 10*mm})
-local back = method.preform(bay, with{
-  from = frame{at = {0.558, 0.814, 0.440}, along = {0, -1, 0}},
-  to = frame{at = {0.486, 0.470, 0.472}, along = {1, 0, 0}},
-  preference = 1, preference_range = 60*mm,
+local beside = method.preform(bay, with{
+  from = frame{at = {0.270, 0.230, 0.560}, along = {0, 1, 0}},
+  to = frame{at = {0.400, 0.800, 0.520}, along = {0, 1, 0}},
+  section = rod.section{outer = 14*mm, inner = 8*mm, material = rubber}, free_ends = 0,
+  preference = 2, preference_range = 80*mm,
 })
-print("\n" .. tostring(back))
-assert(back.ok, back.message)
-picture("preformed_return", back, {title = "Return from the heater, beside the feed"})
+print("\n" .. tostring(beside))
+assert(beside.ok, beside.message)
+picture("preformed_hose_beside", beside, {title = "Vacuum hose beside the heater's feed"})
 print("\nstep of the first and of the second search, in ms")
-for i, step in ipairs(feed.steps) do print(("%-20s %8.1f %8.1f"):format(step.name, step.seconds * 1e3, back.steps[i].seconds * 1e3)) end
+for i, step in ipairs(feed.steps) do print(("%-20s %8.1f %8.1f"):format(step.name, step.seconds * 1e3, beside.steps[i].seconds * 1e3)) end

@@ -1,5 +1,7 @@
 // method.preform: distinct preformed hoses through real surroundings.
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/units.h"
 #include "base/write_file.h"
@@ -73,7 +75,8 @@ Rod rod_of(const HoseHandle& h) { return preform::formed_rod(h.hose().points.cur
 ClearanceValue clearance_of_hose(const HoseHandle& h) {
   const routing::CurveGap& gap = h.hose().clearance;
   const std::string& name = h.hose().clearance_to;
-  Clearance clearance{gap.value, gap.s, gap.at, gap.on, gap.obstacle};
+  const double value = gap.obstacle < 0 ? std::numeric_limits<double>::infinity() : gap.value;
+  const Clearance clearance{value, gap.s, gap.at, gap.on, gap.obstacle};
   const double required = gap.obstacle < 0 ? 0 : h.set.result->space->surroundings().clearance(gap.obstacle);
   return {clearance, name, required, gap.obstacle >= 0 && gap.value < required - 1e-5};
 }

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 
 #include "base/units.h"
 #include "binding/card.h"
+#include "method/preform/bending_table.h"
 #include "view/colour_map.h"
 
 namespace tendril {
@@ -21,12 +23,17 @@ std::optional<double> common_demand(const Surroundings& surroundings) {
   return surroundings.clearance(0);
 }
 
-std::vector<double> gaps_along(const preform::Result& result, const std::vector<Vec3>& points) {
+/// At points that are equally far apart along a curve of this length. Within the free ends no gap is asked for, and none shown.
+std::vector<double> gaps_along(const preform::Result& result, const std::vector<Vec3>& points, double length) {
   const Surroundings& surroundings = result.space->surroundings();
-  const double most = common_demand(surroundings) ? 0 : infinity;
+  const double most = common_demand(surroundings) ? 0 : infinity, free = result.options.curve.free_ends;
   std::vector<double> gaps;
-  for (const Vec3& p : points)
-    gaps.push_back((surroundings.closest_kept(p, infinity, most).distance - result.options.space.radius) / units::mm);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double s = length * i / (points.size() - 1);
+    const bool is_free = s < free || s > length - free;
+    gaps.push_back(is_free ? std::numeric_limits<double>::quiet_NaN()
+                           : (surroundings.closest_kept(points[i], infinity, most).distance - result.options.space.radius) / units::mm);
+  }
   return gaps;
 }
 
@@ -41,12 +48,21 @@ PictureLabel gap_label(const routing::CurveGap& gap, double radius) {
   return label;
 }
 
-std::vector<PictureCard::Row> rows_of(const preform::Hose& hose) {
+std::vector<PictureCard::Row> rows_of(const preform::Result& result, const preform::Hose& hose) {
   std::vector<PictureCard::Row> rows{{"what", hose.label, false}, {"length", quantity(hose.length, "m"), false},
                                      {"bends", std::to_string(hose.points.bends()), false}};
   if (hose.clearance.obstacle >= 0)
     rows.push_back({"min. clearance", quantity(hose.clearance.value, "m") + " to " + hose.clearance_to, false});
-  rows.push_back({"passage", std::to_string(hose.passage), false});
+  const double free = result.options.curve.free_ends;
+  if (free > 0) rows.push_back({"no clearance asked for within", quantity(free, "m") + " of the ends", false});
+  constexpr std::size_t most = 8;  // bends with rows of their own; more would not fit the card
+  const std::vector<preform::Bend> bends = preform::bends_of(hose.points);
+  for (std::size_t i = 0; i < std::min(most, bends.size()); ++i) {
+    char line[96];
+    std::snprintf(line, sizeof line, "after %.1f mm, turned %.1f deg, bent %.1f deg", bends[i].straight_before / units::mm,
+                  bends[i].plane / units::deg, bends[i].angle / units::deg);
+    rows.push_back({"bend " + std::to_string(i + 1), line, false});
+  }
   return rows;
 }
 
@@ -86,9 +102,9 @@ std::vector<PictureDesign> designs_of(const preform::Result& result, std::option
     design.radius = result.options.space.radius;
     design.points = hose.points.curve().sampled(0.5 * design.radius);
     if (only) {
-      if (result.space->has_obstacles()) design.gaps = gaps_along(result, design.points);
+      if (result.space->has_obstacles()) design.gaps = gaps_along(result, design.points, hose.length);
       if (hose.clearance.obstacle >= 0) design.gap = gap_label(hose.clearance, design.radius);
-      design.rows = rows_of(hose);
+      design.rows = rows_of(result, hose);
     } else {
       design.rows = {{"hose " + design.name, line_of(hose), false}};
     }

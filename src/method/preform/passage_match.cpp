@@ -118,19 +118,6 @@ class RungDiagram {
 
 }  // namespace
 
-std::vector<Vec3> places_along(const PccPoints& curve, int count, double from, double to) {
-  const std::vector<routing::PccPiece> pieces = routing::pieces_of(curve);
-  std::vector<Vec3> places;
-  std::size_t at = 0;
-  for (int k = 0; k < count; ++k) {
-    const double s = from + (to - from) * k / (count - 1);
-    while (at + 1 < pieces.size() && s > pieces[at].begin + pieces[at].length) ++at;
-    if (pieces.empty()) places.push_back(curve.points.front());
-    else places.push_back(pieces[at].at(std::clamp((s - pieces[at].begin) / pieces[at].length, 0.0, 1.0)));
-  }
-  return places;
-}
-
 bool same_passage(const FreeSpace& space, const PccPoints& a, const PccPoints& b, double free_ends, std::vector<int>* blocking) {
   if (blocking) blocking->clear();
   if (!space.has_obstacles()) return true;

@@ -8,12 +8,12 @@
 
 #include <vector>
 
+#include "method/pcc/curve_distance.h"
 #include "method/preform/options.h"
 
 namespace tendril::preform {
 
-/// Places at equal arc lengths, both ends included; `count` of them, at least 2.
-std::vector<Vec3> places_along(const PccPoints& curve, int count, double from, double to);
+using routing::places_along;
 
 /// True: certain, for what lies outside the free ends (m, arc length at either end). False: no such matching was found;
 /// `blocking`, if given, gets the numbers of the obstacles that stand between places at equal shares of the lengths, the most

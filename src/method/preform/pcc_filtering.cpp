@@ -11,21 +11,10 @@ namespace tendril::preform {
 
 namespace {
 
-constexpr int places_compared = 48;
 /// m: farther surfaces are not named as the nearest.
 constexpr double farthest_clearance = 0.2;
 /// Share of the objective within which fewer bends are preferred: before the last optimum, and after it.
 constexpr double nearly_as_good = 1e-2, as_good = 1e-4;
-
-std::vector<Vec3> compared_places(const PccPoints& curve) {
-  return places_along(curve, places_compared, 0, curve.length());
-}
-
-double distance_between(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
-  double most = 0;
-  for (std::size_t k = 0; k < a.size(); ++k) most = std::max(most, (a[k] - b[k]).norm());
-  return most;
-}
 
 /// The feasible ones by objective; equal ones by bends, then as they came.
 std::vector<int> ranked(const std::vector<Optimized>& curves) {
@@ -44,9 +33,9 @@ std::vector<std::vector<int>> groups_of(const std::vector<Optimized>& curves, do
   std::vector<std::vector<int>> groups;
   std::vector<std::vector<Vec3>> leaders;
   for (const int index : ranked(curves)) {
-    const std::vector<Vec3> places = compared_places(curves[index].points);
+    const std::vector<Vec3> places = routing::compared_places(curves[index].points);
     std::size_t g = 0;
-    while (g < groups.size() && distance_between(leaders[g], places) >= same) ++g;
+    while (g < groups.size() && routing::largest_distance(leaders[g], places) >= same) ++g;
     if (g == groups.size()) {
       groups.emplace_back();
       leaders.push_back(places);
@@ -103,8 +92,6 @@ void measure_clearance(const FreeSpace& space, const Options& options, Hose& hos
 }
 
 }  // namespace
-
-double curve_distance(const PccPoints& a, const PccPoints& b) { return distance_between(compared_places(a), compared_places(b)); }
 
 std::vector<int> distinct(const std::vector<Optimized>& curves, const Options& options) {
   std::vector<int> kept;

@@ -5,12 +5,12 @@
 #include <vector>
 
 #include "method/preform/passage_match.h"
+#include "method/pcc/curve_distance.h"
 #include "method/preform/pcc_optimization.h"
 
 namespace tendril::preform {
 
-/// The largest distance between points at equal shares of the arc length, m; 48 of them. Not of curves run backwards.
-double curve_distance(const PccPoints& a, const PccPoints& b);
+using routing::curve_distance;
 
 /// Indices of the feasible curves that stay, the best first: of curves nearer together than Options::same all along, the best.
 /// Since curves are not yet at their optimum to the last digit, one with fewer bends stays beside it while it is nearly as good.

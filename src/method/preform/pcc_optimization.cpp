@@ -1,7 +1,10 @@
 #include "method/preform/pcc_optimization.h"
 
 #include <algorithm>
+#include <cmath>
 
+#include "base/units.h"
+#include "method/pcc/curve_distance.h"
 #include "method/preform/in_parallel.h"
 
 namespace tendril::preform {
@@ -91,6 +94,33 @@ Optimized with_best_tools(const FreeSpace& space, const Options& options, Optimi
   return best;
 }
 
+double turn_at(const PccPoints& curve, int bend) {
+  const Vec3 in = (curve.points[bend + 1] - curve.points[bend]).normalized();
+  const Vec3 out = (curve.points[bend + 2] - curve.points[bend + 1]).normalized();
+  return 2 * std::atan2((out - in).norm(), (out + in).norm());
+}
+
+/// Without bends that hardly turn, as long as that costs next to nothing: each of them is a step of the bending machine.
+Optimized with_fewer_bends(const FreeSpace& space, const Options& options, Optimized best, const RunContext& context) {
+  constexpr double hardly = 15 * units::deg, next_to_nothing = 5e-3;
+  while (best.points.bends() > 0 && !context.stop()) {
+    int least = 0;
+    for (int bend = 1; bend < best.points.bends(); ++bend)
+      if (turn_at(best.points, bend) < turn_at(best.points, least)) least = bend;
+    if (turn_at(best.points, least) > hardly) break;
+    Candidate fewer{best.points, best.path};
+    fewer.points.points.erase(fewer.points.points.begin() + least + 1);
+    fewer.points.radii.erase(fewer.points.radii.begin() + least);
+    const Optimized tried = optimized(space, options, fewer, context);
+    // With so much freedom the descent may end in another passage, which is another hose.
+    if (!tried.violations.empty() || tried.objective > best.objective * (1 + next_to_nothing) ||
+        routing::curve_distance(tried.points, best.points) > options.same)
+      break;
+    best = tried;
+  }
+  return best;
+}
+
 }  // namespace
 
 std::vector<Optimized> pcc_optimization(const FreeSpace& space, const Options& options, const std::vector<Candidate>& candidates,
@@ -112,7 +142,8 @@ std::vector<Optimized> pcc_optimization(const FreeSpace& space, const Options& o
 void polish(const FreeSpace& space, const Options& options, std::vector<Optimized>& curves, const RunContext& context) {
   in_parallel(curves.size(), context, "polishing", [&](std::size_t i) {
     if (!curves[i].violations.empty()) return;
-    const Optimized chosen = with_best_tools(space, options, curves[i], context);
+    const Optimized few = with_fewer_bends(space, options, curves[i], context);
+    const Optimized chosen = with_best_tools(space, options, few, context);
     curves[i] = polished(space, options, chosen, context);
   });
 }

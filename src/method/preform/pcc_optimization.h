@@ -19,7 +19,8 @@ struct Optimized {
 std::vector<Optimized> pcc_optimization(const FreeSpace& space, const Options& options, const std::vector<Candidate>& candidates,
                                         const RunContext& context = {});
 
-/// The winners to the constrained optimum, with tools of other radii where they make it better, and certified again.
+/// The winners to the constrained optimum, without bends below 15 degrees that half a per cent of the objective can replace, with
+/// tools of other radii where they make it better, and certified again.
 void polish(const FreeSpace& space, const Options& options, std::vector<Optimized>& curves, const RunContext& context = {});
 
 }  // namespace tendril::preform
