@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <queue>
+#include <map>
 
 #include "base/number_text.h"
 #include "base/parallel.h"
@@ -17,7 +17,6 @@ constexpr double most_nodes = 30e6;
 struct Waiting {
   float cost;
   int node;
-  bool operator<(const Waiting& other) const { return cost > other.cost || (cost == other.cost && node > other.node); }
 };
 
 }  // namespace
@@ -45,6 +44,7 @@ Roadmap::Roadmap(const FreeSpace& space, double step, const RunContext& context)
     throw UsageError("grid: a step of " + number_text(step / units::mm) + " mm makes " + number_text(std::round(count / 1e6)) +
                      " million nodes, at most 30 million expected; take a larger 'grid' or a box to 'keep_in'");
   for (int k = 0; k < 3; ++k) size_[k] = static_cast<int>(std::floor(region.sizes()[k] / step + 1e-9)) + 1;
+  for (int n = 0; n < 26; ++n) strides_[n] = node(neighbours()[n].offset);
   // Nodes that are free by D are joined by edges whose middles are at least D - step sqrt(3) / 2 from everything: above 0, so that
   // no surface lies between, up to step = 1.15 D. Of zones only the radius is kept clear.
   const double kept_clear = space.demands().radius + (space.demands().keep_out.empty() ? space.demands().clearance : 0);
@@ -125,28 +125,28 @@ float Roadmap::cost_between(int from, int to, float steps) const {
   return costs_.empty() ? length : 0.5f * (costs_[from] + costs_[to]) * length;
 }
 
+/// Dijkstra's algorithm with buckets (Dial): as no edge costs less than a bucket is wide, the nodes within one do not improve each
+/// other and need no order. Where rounding lets them, they wait once more.
 std::vector<float> Roadmap::costs_to(const std::vector<Goal>& goals) const {
   std::vector<float> cost(free_.size(), unreachable);
-  std::priority_queue<Waiting> waiting;
-  for (const Goal& goal : goals) {
-    if (!(goal.cost < cost[goal.node])) continue;
-    cost[goal.node] = static_cast<float>(goal.cost);
-    waiting.push({cost[goal.node], goal.node});
-  }
-  while (!waiting.empty()) {
-    const Waiting next = waiting.top();
-    waiting.pop();
-    if (next.cost > cost[next.node]) continue;
-    const std::array<int, 3> here = cell(next.node);
-    for (const Neighbour& n : neighbours()) {
-      const std::array<int, 3> there{here[0] + n.offset[0], here[1] + n.offset[1], here[2] + n.offset[2]};
-      if (!holds(there)) continue;
-      const int other = node(there);
-      if (!free_[other]) continue;
-      const float through = next.cost + cost_between(other, next.node, n.steps);
-      if (through >= cost[other] || !passes(other, next.node)) continue;
-      cost[other] = through;
-      waiting.push({through, other});
+  std::map<long, std::vector<Waiting>> buckets;
+  long current = 0;
+  const auto wait = [&](float through, int at) {
+    cost[at] = through;
+    buckets[std::max(current, static_cast<long>(std::min(through / step_, 1e15)))].push_back({through, at});
+  };
+  for (const Goal& goal : goals)
+    if (goal.cost < cost[goal.node]) wait(static_cast<float>(goal.cost), goal.node);
+  while (!buckets.empty()) {
+    current = buckets.begin()->first;
+    const std::vector<Waiting> bucket = std::move(buckets.begin()->second);
+    buckets.erase(buckets.begin());
+    for (const Waiting& next : bucket) {
+      if (next.cost > cost[next.node]) continue;
+      visit_free_neighbours(next.node, [&](int other, float steps) {
+        const float through = next.cost + cost_between(other, next.node, steps);
+        if (through < cost[other] && passes(other, next.node)) wait(through, other);
+      });
     }
   }
   return cost;

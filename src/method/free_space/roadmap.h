@@ -36,6 +36,9 @@ class Roadmap {
     float steps;
   };
   static const std::array<Neighbour, 26>& neighbours();
+  /// Calls visit(node, steps) for every neighbour within the grid that is free.
+  template <class Visit>
+  void visit_free_neighbours(int node, const Visit& visit) const;
   /// Between two free neighbours. Where the step is at most 1.15 times what is kept clear of, both ends being free is enough: no
   /// surface lies between. Else the straight between them keeps what is demanded.
   bool passes(int from, int to) const;
@@ -60,10 +63,24 @@ class Roadmap {
   bool edges_are_free_;
   Vec3 corner_;
   std::array<int, 3> size_ = {1, 1, 1};
+  std::array<int, 26> strides_ = {};  ///< from a node to its neighbours
   std::vector<char> free_;
   std::vector<std::uint16_t> open_;  ///< by node a bit for each of the last thirteen neighbours; empty where edges_are_free_
   std::vector<float> costs_;  ///< per metre, by node; empty where nothing is preferred
   long free_nodes_ = 0;
 };
+
+template <class Visit>
+void Roadmap::visit_free_neighbours(int node, const Visit& visit) const {
+  const std::array<int, 3> here = cell(node);
+  bool within = true;
+  for (int k = 0; k < 3; ++k) within = within && here[k] > 0 && here[k] < size_[k] - 1;
+  const auto& all = neighbours();
+  for (int n = 0; n < 26; ++n) {
+    const std::array<int, 3>& by = all[n].offset;
+    if (!within && !holds({here[0] + by[0], here[1] + by[1], here[2] + by[2]})) continue;
+    if (free_[node + strides_[n]]) visit(node + strides_[n], all[n].steps);
+  }
+}
 
 }  // namespace tendril::routing

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <queue>
 
 namespace tendril::preform {
 
@@ -11,11 +10,8 @@ using routing::Roadmap;
 
 namespace {
 
-struct Waiting {
-  float whole, behind;  ///< the least that the whole path costs; the cost up to here
-  int node;
-  bool operator<(const Waiting& other) const { return whole > other.whole || (whole == other.whole && node > other.node); }
-};
+/// Of paths that cost the same but for so much the search follows the one that is nearest to the finish.
+constexpr float even = 1e-5f;
 
 /// Mean of both ends, as between nodes.
 double cost_of_straight(const FreeSpace& space, const Vec3& a, const Vec3& b) {
@@ -27,7 +23,10 @@ double cost_of_straight(const FreeSpace& space, const Vec3& a, const Vec3& b) {
 
 PathSearch::PathSearch(const FreeSpace& space, const Roadmap& roadmap, const Vec3& start, const Vec3& finish)
     : space_(space), roadmap_(roadmap), start_(start), finish_(finish), starts_(joined(start)), finishes_(joined(finish)),
-      to_finish_(roadmap.costs_to(finishes_)), excluded_(roadmap.nodes(), 0) {}
+      to_finish_(roadmap.costs_to(finishes_)), leave_(roadmap.nodes(), Roadmap::unreachable), excluded_(roadmap.nodes(), 0),
+      behind_(roadmap.nodes(), Roadmap::unreachable), before_(roadmap.nodes(), -1) {
+  for (const Goal& goal : finishes_) leave_[goal.node] = static_cast<float>(goal.cost);
+}
 
 /// By free straights to nodes beyond the corners of the cell too, so that an end near a wall finds its way.
 std::vector<PathSearch::Goal> PathSearch::joined(const Vec3& end) const {
@@ -46,47 +45,60 @@ std::vector<PathSearch::Goal> PathSearch::joined(const Vec3& end) const {
   return goals;
 }
 
-PathSearch::Path PathSearch::shortest(const RunContext& context) const {
-  std::vector<float> behind(roadmap_.nodes(), Roadmap::unreachable), ahead(roadmap_.nodes(), Roadmap::unreachable);
-  std::vector<int> before(roadmap_.nodes(), -1);
-  std::priority_queue<Waiting> waiting;
-  const auto reach = [&](int node, float cost, int from) {
-    if (excluded_[node] || !(cost < behind[node]) || to_finish_[node] == Roadmap::unreachable) return;
-    behind[node] = cost;
-    before[node] = from;
-    waiting.push({cost + to_finish_[node], cost, node});
-  };
-  for (const Goal& goal : finishes_) ahead[goal.node] = static_cast<float>(goal.cost);
-  for (const Goal& goal : starts_) reach(goal.node, static_cast<float>(goal.cost), -1);
-  float best = Roadmap::unreachable;
-  int last = -1;
-  for (long count = 0; !waiting.empty() && waiting.top().whole < best; ++count) {
-    const Waiting next = waiting.top();
-    waiting.pop();
-    if (next.behind > behind[next.node]) continue;
-    if ((count & 1023) == 1023 && context.stop()) return {};
-    if (next.behind + ahead[next.node] < best) {
-      best = next.behind + ahead[next.node];
-      last = next.node;
-    }
-    const std::array<int, 3> here = roadmap_.cell(next.node);
-    for (const Roadmap::Neighbour& n : Roadmap::neighbours()) {
-      const std::array<int, 3> there{here[0] + n.offset[0], here[1] + n.offset[1], here[2] + n.offset[2]};
-      if (!roadmap_.holds(there)) continue;
-      const int other = roadmap_.node(there);
-      if (!roadmap_.is_free(other) || excluded_[other]) continue;
-      const float cost = next.behind + roadmap_.cost_between(next.node, other, n.steps);
-      if (cost < behind[other] && roadmap_.passes(next.node, other)) reach(other, cost, next.node);
-    }
-  }
+void PathSearch::reach(int node, float cost, int from) {
+  if (to_finish_[node] == Roadmap::unreachable) return;
+  if (behind_[node] == Roadmap::unreachable) touched_.push_back(node);
+  behind_[node] = cost;
+  before_[node] = from;
+  waiting_.push_back({cost + (1 + even) * to_finish_[node], cost, node});
+  std::push_heap(waiting_.begin(), waiting_.end());
+}
+
+void PathSearch::expand(int node) {
+  roadmap_.visit_free_neighbours(node, [&](int other, float steps) {
+    if (excluded_[other]) return;
+    const float cost = behind_[node] + roadmap_.cost_between(node, other, steps);
+    if (cost < behind_[other] && roadmap_.passes(node, other)) reach(other, cost, node);
+  });
+}
+
+PathSearch::Path PathSearch::path_to(int node, float cost) const {
   Path path;
-  if (last < 0) return path;
-  path.cost = best;
-  for (int node = last; node >= 0; node = before[node]) path.nodes.push_back(node);
+  path.cost = cost;
+  for (; node >= 0; node = before_[node]) path.nodes.push_back(node);
   std::reverse(path.nodes.begin(), path.nodes.end());
   path.places.push_back(start_);
-  for (const int node : path.nodes) path.places.push_back(roadmap_.place(node));
+  for (const int n : path.nodes) path.places.push_back(roadmap_.place(n));
   path.places.push_back(finish_);
+  return path;
+}
+
+PathSearch::Path PathSearch::shortest(const RunContext& context) {
+  for (const Goal& goal : starts_)
+    if (!excluded_[goal.node] && goal.cost < behind_[goal.node]) reach(goal.node, static_cast<float>(goal.cost), -1);
+  float best = Roadmap::unreachable;
+  int last = -1;
+  std::vector<int> expanded;
+  bool stopped = false;
+  for (long count = 0; !waiting_.empty() && waiting_.front().whole < best && !stopped; ++count) {
+    const Waiting next = waiting_.front();
+    std::pop_heap(waiting_.begin(), waiting_.end());
+    waiting_.pop_back();
+    if (next.behind > behind_[next.node]) continue;
+    stopped = (count & 1023) == 1023 && context.stop();
+    if (next.behind + leave_[next.node] < best) {
+      best = next.behind + leave_[next.node];
+      last = next.node;
+    }
+    expanded.push_back(next.node);
+    expand(next.node);
+  }
+  const Path path = last < 0 || stopped ? Path{} : path_to(last, best);
+  if (!path.places.empty())
+    for (const int node : expanded) to_finish_[node] = std::max(to_finish_[node], (1 - even) * best - behind_[node]);
+  for (const int node : touched_) behind_[node] = Roadmap::unreachable;
+  touched_.clear();
+  waiting_.clear();
   return path;
 }
 

@@ -10,8 +10,10 @@
 
 namespace tendril::preform {
 
-/// From one place to another, both joined to the nodes around them. Distances to the finish through all free nodes are found once;
-/// they never overestimate those that are left when nodes are excluded, and guide every search (A*). Ties are broken by node.
+/// From one place to another, both joined to the nodes around them. Costs to the finish through all free nodes are found once; they
+/// never overestimate those that are left when nodes are excluded, and guide every search (A*). Each search raises them where it
+/// went in vain: what is behind a node and what is ahead of it are together at least the cost of the path (adaptive A*; Koenig and
+/// Likhachev, AAMAS 2005), so that the next one does not go there again. Ties are broken by node.
 class PathSearch {
  public:
   /// An end is joined to nodes up to so many steps away: not a distance that nodes of a grid have, so that rounding decides nothing.
@@ -26,7 +28,7 @@ class PathSearch {
     double cost = 0;
   };
   /// The cheapest path without excluded nodes. Stopped by `context`: none.
-  Path shortest(const RunContext& context = {}) const;
+  Path shortest(const RunContext& context = {});
 
   /// Takes away the nodes within `radius` (m) of a path's, but for those that `is_kept` holds for. Returns how many nodes of the
   /// path itself are among them.
@@ -36,13 +38,27 @@ class PathSearch {
  private:
   using Goal = routing::Roadmap::Goal;
   std::vector<Goal> joined(const Vec3& end) const;
+  void reach(int node, float cost, int from);
+  void expand(int node);
+  Path path_to(int node, float cost) const;
 
   const routing::FreeSpace& space_;
   const routing::Roadmap& roadmap_;
   Vec3 start_, finish_;
   std::vector<Goal> starts_, finishes_;
-  std::vector<float> to_finish_;  ///< by node
+  std::vector<float> to_finish_;  ///< by node: never more than what it costs from there
+  std::vector<float> leave_;      ///< by node: the straight to the finish; infinite for those that are not joined to it
   std::vector<char> excluded_;    ///< by node
+
+  // Of the search under way, by node; what it touched is cleared afterwards.
+  struct Waiting {
+    float whole, behind;  ///< the least that the whole path costs; the cost up to here
+    int node;
+    bool operator<(const Waiting& other) const { return whole > other.whole || (whole == other.whole && node > other.node); }
+  };
+  std::vector<float> behind_;
+  std::vector<int> before_, touched_;
+  std::vector<Waiting> waiting_;  ///< a heap
 };
 
 template <class IsKept>
