@@ -62,8 +62,8 @@ chosen:save(given.out .. "/heater_feed.glb")
 -- A thinner hose runs beside it: the feed is an obstacle now, one to keep near. Distances that are known stay known.
 bay:obstacle("feed", chosen.mesh, {prefer = "near", clearance = 10*mm})
 local beside = method.preform(bay, with{
-  from = frame{at = {0.270, 0.230, 0.560}, along = {0, 1, 0}},
-  to = frame{at = {0.400, 0.800, 0.520}, along = {0, 1, 0}},
+  from = frame{at = {0.360, 0.235, 0.560}, along = {0, 1, 0}},
+  to = frame{at = {0.400, 0.740, 0.500}, along = {0, 1, 0}},
   section = rod.section{outer = 14*mm, inner = 8*mm, material = rubber}, free_ends = 0,
   preference = 2, preference_range = 80*mm,
 })

@@ -101,8 +101,9 @@ double turn_at(const PccPoints& curve, int bend) {
 }
 
 /// Without bends that hardly turn, as long as that costs next to nothing: each of them is a step of the bending machine.
-Optimized with_fewer_bends(const FreeSpace& space, const Options& options, Optimized best, const RunContext& context) {
+Optimized with_fewer_bends(const FreeSpace& space, const Options& options, const Optimized& given, const RunContext& context) {
   constexpr double hardly = 15 * units::deg, next_to_nothing = 5e-3;
+  Optimized best = given;
   while (best.points.bends() > 0 && !context.stop()) {
     int least = 0;
     for (int bend = 1; bend < best.points.bends(); ++bend)
@@ -114,7 +115,7 @@ Optimized with_fewer_bends(const FreeSpace& space, const Options& options, Optim
     const Optimized tried = optimized(space, options, fewer, context);
     // With so much freedom the descent may end in another passage, which is another hose.
     if (!tried.violations.empty() || tried.objective > best.objective * (1 + next_to_nothing) ||
-        routing::curve_distance(tried.points, best.points) > options.same)
+        routing::curve_distance(tried.points, given.points) > options.same)
       break;
     best = tried;
   }

@@ -111,7 +111,9 @@ Result run(const Scene& scene, const Options& options, const RunContext& context
     return r.status == Status::cancelled || r.status == Status::timeout;
   };
 
-  const double margin = 4 * options.curve.radii.front() + options.space.radius + options.space.clearance;
+  // Room to turn around outside of everything.
+  const double margin =
+      2 * options.curve.radii.front() + options.curve.end_straight + options.space.radius + options.space.clearance;
   r.space = std::make_shared<const FreeSpace>(scene, options.space, std::vector<Vec3>{options.ends.start, options.ends.finish}, margin, context);
   const FreeSpace& space = *r.space;
   steps.end("distance_field", {{"obstacles", space.surroundings().size()}});
