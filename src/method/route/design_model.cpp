@@ -223,7 +223,8 @@ std::vector<ConstrainedProblem::Tag> DesignModel::pressing(const State& state) c
       return (i == 0 || radii[i] <= radii[i - 1]) && (i == last || radii[i] <= radii[i + 1]);
     };
     for (int i = 0; i <= last; ++i)
-      if (1 - options_->min_bend_radius / radii[i] < seen_bend && (sharpest(i) || sharpest(std::max(i - 1, 0)) || sharpest(std::min(i + 1, last))))
+      if (1 - options_->min_bend_radius / radii[i] < seen_bend &&
+          (sharpest(i) || sharpest(std::max(i - 1, 0)) || sharpest(std::min(i + 1, last))))
         tags.push_back({bend, double(i)});
   }
   std::vector<Room> rooms;

@@ -7,7 +7,12 @@
 //
 // gradient: sequential quadratic programming in a trust region, on exact sensitivities of the equilibria; what is demanded enters as
 // constraints. gradient_free: the paper's way, a derivative-free method of NLopt on cost plus penalties, equilibria as a black box.
-// Surroundings are the scene's obstacles. Other rods of the scene take no part.
+//
+// Obstacles that no clearance is demanded of may be touched: they carry the object by contact. Those to keep clear of exert no force
+// while designs are compared, as a design that keeps its clearance does not touch them; which side of an open mesh the object is on
+// is told by where it ran first. The last equilibrium is found in contact with everything and judged by exact distances; where it
+// then misses something, the search goes on in contact with everything.
+// Not done: other rods of the scene take no part; a design is a local optimum, near the one that was given.
 #pragma once
 
 #include <limits>

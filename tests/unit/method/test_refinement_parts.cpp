@@ -194,7 +194,8 @@ TEST_CASE("a preformed shape gets longer at its finish and keeps its bends", "[r
   Design design = u_design(0.6);
   form(design.rod, Curve::spline({{0, 0, 0}, {0.2, 0.1, 0}, {0.4, 0, 0}}));
   design.rod.parts.back().upto = design.rod.length;
-  CHECK_THROWS_WITH(DesignSpace(design, {}), Catch::Contains("expected a shape of straights and bends (curve.pcc) that ends with a straight"));
+  CHECK_THROWS_WITH(DesignSpace(design, {}),
+                    Catch::Contains("expected a shape of straights and bends (curve.pcc) that ends with a straight"));
 }
 
 TEST_CASE("design spaces: first-order changes are those of the design", "[refinement]") {
@@ -278,13 +279,14 @@ TEST_CASE("design models: slopes of cost and constraints against differences", "
       const VectorXd slacks_below = model.slacks(linear.tags);
       INFO(space.variables()[j].name);
       REQUIRE((above.valid && below.valid));
-      CHECK((above.cost - below.cost) / (2 * step) == Approx(linear.cost[j]).epsilon(model.accepted().rod().contacts.empty() ? 1e-4 : 5e-4).margin(2e-5));
+      const double digits = model.accepted().rod().contacts.empty() ? 1e-4 : 5e-4;
+      CHECK((above.cost - below.cost) / (2 * step) == Approx(linear.cost[j]).epsilon(digits).margin(2e-5));
       int wrong = 0;
       for (std::size_t i = 0; i < linear.tags.size(); ++i) {
         const double difference = (slacks_above[i] - slacks_below[i]) / (2 * step), exact = linear.slopes(i, j);
         if (std::abs(difference - exact) > 1e-3 * std::abs(exact) + 1e-3) {
-          UNSCOPED_INFO("constraint of kind " << linear.tags[i].kind << " at " << linear.tags[i].place << ": " << difference << " against "
-                                              << exact);
+          UNSCOPED_INFO("constraint of kind " << linear.tags[i].kind << " at " << linear.tags[i].place << ": " << difference
+                                              << " against " << exact);
           ++wrong;
         }
       }
