@@ -561,6 +561,97 @@ function motion_methods:clearance(options) end
 ---@return mesh, envelope_report
 function motion_methods:envelope(options) end
 
+---One bend of a hose, as the bending machine makes it
+---@class bend
+---@field angle number How far it turns (rad)
+---@field plane number Turn of its plane against the last bend's, right-handed about the way forward; 0 for the first (rad)
+---@field radius number Of the centre line (m)
+---@field s number Arc length where it begins (m)
+---@field straight_before number Between the last bend, or the start, and this one (m)
+---@field vertex vec Where the straights before and after it would meet (m)
+local bend_methods = {}
+
+---How far gravity moves a hose; computes as a number (m)
+---@class settled_hose
+---@field equilibrium equilibrium Of the rod "hose"
+---@field ok boolean The equilibrium was found
+---@field s number Arc length where (m)
+---@field value number Largest distance from the shape as formed (m)
+---@operator add(number|settled_hose): number
+---@operator sub(number|settled_hose): number
+---@operator mul(number|settled_hose): number
+---@operator div(number|settled_hose): number
+---@operator unm: number
+local settled_hose_methods = {}
+
+---A preformed hose: straights joined by bends
+---@class hose
+---@field bends (bend)[] List of bends
+---@field clearance clearance Smallest gap, with .at, .on, .s; certified along its true arcs and straights (m)
+---@field curve curve The centre line
+---@field from frame Frame of its start, for scene:rod
+---@field label string What sets it apart
+---@field length number Of the centre line (m)
+---@field mesh mesh Its surface, to save, or to place as an obstacle for the next hose
+---@field objective number Length, or what it costs with preferences (m)
+---@field passage integer Hoses with one number can be moved into each other
+---@field rod rod As a design for scene:rod; needs a section
+---@field to frame Frame of its finish
+local hose_methods = {}
+
+---@class (exact) tendril.hose.save.options
+---@field table? "LRA"|"XYZ"|"centre_line" What a .csv holds (default "LRA")
+---@field unit? "mm"|"cm"|"m"|"in" Of a mesh; default "m"
+
+---Writes a table as .csv (mm, degrees), or its surface as .stl, .ply, .obj or .glb.
+---@param path string
+---@param options? tendril.hose.save.options
+---@return saved_file
+function hose_methods:save(path, options) end
+
+---@class (exact) tendril.hose.settle.options
+---@field element? "se3"|"staggered" Rod element: fourth order, or the second-order reference element (default "se3")
+---@field clamp? "half_cell"|"thesis" How the staggered element clamps an end: second order, or the thesis's first order (default "half_cell")
+---@field tolerance? number Largest last step: rotations in rad, positions over the length (1e-14 ... 0.01; default 1e-09)
+---@field clearance? "judge"|"push" What obstacles' required clearances do: judged after the solve, or kept: contact then acts that far off, growing from nothing at holds (default "judge")
+---@field error? boolean Also estimate the discretisation error (default false)
+---@field timeout? number Give up after this time, with the best state so far; default: never (s; > 0 and <= 1000000000)
+---@field segments? integer Elements; default by its bends (>= 1)
+
+---Gravity check: how far its equilibrium is from the shape as formed, with .equilibrium, .s. Needs a section.
+---@param options? tendril.hose.settle.options
+---@return settled_hose
+function hose_methods:settle(options) end
+
+---Its bending table as text, mm and degrees: "LRA" (length, rotation, angle) or "XYZ".
+---@param kind? string
+---@return string
+function hose_methods:table(kind) end
+
+---Distinct hoses, the best first: #hoses, hoses[i]
+---@class preform_result
+---@field message string How many, or what stood in the way
+---@field near_misses (string)[] What the best candidates lack where nothing is feasible
+---@field ok boolean There is at least one hose, and the search was not stopped
+---@field passages integer Number of passages that the hoses take
+---@field seconds number Run time (s)
+---@field status string "solved", "infeasible", "cancelled", "timeout"
+---@field steps (step)[] Name, seconds, counts of each
+---@field [integer] any
+---@operator len: integer
+local preform_result_methods = {}
+
+---The card, the steps and every hose with its bending table, as text.
+---@return string
+function preform_result_methods:report() end
+
+---One step of a method, by the thesis's name
+---@class step
+---@field counts table<string, number> How many of what
+---@field name string Of the step
+---@field seconds number Run time (s)
+local step_methods = {}
+
 ---How measures answer to design variables: st.matrix[measure][variable], in SI units
 ---@class stability
 ---@field equilibrium equilibrium That it is about
@@ -1024,6 +1115,41 @@ function scene.plane(options) end
 ---What engineers do with scenes: analyses and searches that take a scene and never change it
 method = {}
 
+---@class (exact) tendril.method.preform.options
+---@field from frame Where the object begins, and its direction there
+---@field to frame Where it ends, and its direction there: on, not back
+---@field outer? number Outer diameter; that of the section when one is given (m; > 0)
+---@field section? section Cross-section: what the object is made of, for its rod and its equilibrium
+---@field min_bend_radius number|(number)[] Of the centre line: one value for every bend, or a list of the bending tools' radii (m)
+---@field min_straight? number Least straight between two bends (m; >= 0; default 0)
+---@field end_straight? number Least straight at both ends; default: min_straight (m; >= 0)
+---@field clearance? number Least gap to every obstacle; an obstacle's own larger one stands (m; >= 0; default 0)
+---@field free_ends? number Length at both ends within which no gap is asked for: the object must reach what it is plugged to (m; >= 0; default 0)
+---@field keep_in? (vec|number[])[] {corner, corner}: the whole object stays within this box (m)
+---@field keep_out? ((vec|number[])[])[] List of {corner, corner}: no part of it gets into these boxes (m)
+---@field preference? number How much more a metre costs next to obstacles with prefer = "avoid", and away from those with prefer = "near"; 0: the shortest (>= 0; default 0)
+---@field preference_range? number Gap from which on a preference counts no more (m; > 0; default 0.1)
+---@field max_bends? integer At most (0 ... 30; default 6)
+---@field max_turn? number Largest angle of one bend (rad; > 0 and < 3.141592654; default 3)
+---@field min_length? number Least length (m; >= 0; default 0)
+---@field max_length? number Largest length (m; > 0)
+---@field from_cone? number Half angle of the cone in which the direction of the start may turn (rad; >= 0 and < 1.570796327; default 0)
+---@field to_cone? number The same of the finish (rad; >= 0 and < 1.570796327; default 0)
+---@field grid? number Step of the search for passages (m; > 0; default 0.02)
+---@field exclusion? number Paths of the search keep this far from earlier ones (m; > 0; default 0.06)
+---@field max_paths? integer Paths of the search, at most (1 ... 1000; default 30)
+---@field same? number Hoses nearer than this all along count as one (m; > 0; default 0.025)
+---@field seed? integer Of all random numbers: the same seed gives the same bits (>= 0; default 1)
+---@field threads? integer At most; default: all that the machine has (1 ... 4096)
+---@field progress? function function(share, what), called now and then
+---@field timeout? number Give up after this time, with the best state so far; default: never (s; > 0 and <= 1000000000)
+
+---Distinct preformed hoses between two frames, ranked: straights and bends that keep what is demanded, as short as can be.
+---@param scene scene
+---@param options tendril.method.preform.options
+---@return preform_result
+function method.preform(scene, options) end
+
 ---@class (exact) tendril.method.stability.options
 ---@field vary? table<string, number>|(string)[] Design variables: a list of names, or {["hose.length"] = tolerance}; a name that others begin with means all of them; default: lengths, frames of holds and branch points, gravity
 ---@field measure? (string)[] Names; default: bend radius, tension, length and clearance of every rod
@@ -1070,7 +1196,7 @@ function method.variation(scene, options) end
 view = {}
 
 ---@class (exact) tendril.view.new.options
----@field [integer] scene|equilibrium The scene, its equilibrium, or both
+---@field [integer] scene|equilibrium|preform_result|hose The scene, its equilibrium, hoses of method.preform (all, or one to colour it by its clearance)
 ---@field color? string|(number)[]|stability What the rods' colour says: "clearance", "curvature", "tension", "twist", {r, g, b} from 0 to 1, or a stability: how far tolerances move it; default: clearance when there are obstacles, else curvature
 ---@field ghost? (string)[] Obstacles to see through, the others are solid; default: all
 ---@field envelope? mesh A shell around the rods to see through; with color = "clearance" its colours say how near obstacles are to it, and the rods are plain
