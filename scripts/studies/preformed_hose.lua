@@ -46,7 +46,7 @@ end
 
 local function picture(name, shown, options)
   options.size = options.size or {1600, 1200}
-  view.new{bay, shown, title = options.title}:save(given.out .. "/" .. name .. ".png", {size = options.size, sheet = options.sheet})
+  view.new{bay, shown, title = options.title, ghost = {"bay", "exhaust"}}:save(given.out .. "/" .. name .. ".png", {size = options.size, sheet = options.sheet})
 end
 picture("preformed_hose", feed, {title = "Feed to the heater: alternatives"})
 for i = 1, math.min(#feed, 3) do
