@@ -21,9 +21,9 @@ struct Kept {
   double from, to;
 };
 
-Kept kept_of(const std::vector<PccPiece>& pieces, double free_ends) {
+Kept kept_of(const std::vector<PccPiece>& pieces, double free_start, double free_finish) {
   const double length = pieces.empty() ? 0 : pieces.back().begin + pieces.back().length;
-  return {free_ends, length - free_ends};
+  return {free_start, length - free_finish};
 }
 
 struct Found {
@@ -212,8 +212,12 @@ std::string in_degrees(double angle) { return number_text(std::round(1e3 * angle
 }  // namespace
 
 CurveGap smallest_gap(const FreeSpace& space, const PccPoints& curve, double free_ends, double limit, double tolerance) {
+  return smallest_gap(space, curve, free_ends, free_ends, limit, tolerance);
+}
+
+CurveGap smallest_gap(const FreeSpace& space, const PccPoints& curve, double free_start, double free_finish, double limit, double tolerance) {
   const std::vector<PccPiece> pieces = pieces_of(curve);
-  const Kept kept = kept_of(pieces, free_ends);
+  const Kept kept = kept_of(pieces, free_start, free_finish);
   GapSearch search(space, limit, tolerance);
   constexpr double first_look = 20e-3;
   for (const PccPiece& piece : pieces) search.sample(piece, kept.from, kept.to, first_look);
@@ -223,7 +227,7 @@ CurveGap smallest_gap(const FreeSpace& space, const PccPoints& curve, double fre
 
 bool is_clear(const FreeSpace& space, const PccPoints& curve, double free_ends, double tolerance) {
   const std::vector<PccPiece> pieces = pieces_of(curve);
-  const Kept kept = kept_of(pieces, free_ends);
+  const Kept kept = kept_of(pieces, free_ends, free_ends);
   GapSearch search(space, -0.5 * tolerance, 0.5 * tolerance, true);
   for (const PccPiece& piece : pieces) {
     search.along(piece, kept.from, kept.to);
@@ -246,7 +250,7 @@ std::vector<Violation> violations(const FreeSpace& space, const PccDemands& dema
   check_bends(demands, line, collector);
   check_whole(demands, ends, curve, collector);
   if (overlap == 0) {
-    const Kept kept = kept_of(pieces, demands.free_ends);
+    const Kept kept = kept_of(pieces, demands.start_free(), demands.finish_free());
     std::vector<Found> gaps;
     check_gaps(space, pieces, kept, tolerance, gaps);
     collector.found.insert(collector.found.end(), gaps.begin(), gaps.end());

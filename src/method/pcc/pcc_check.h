@@ -25,6 +25,7 @@ struct CurveGap {
 /// Of what lies outside the free ends (m, arc length at either end); looked for below `limit` (m). It is measured at `at`, and
 /// nowhere on the true curve is the gap smaller by more than `tolerance` (m), 0.1 mm where the centre line is inside a solid.
 CurveGap smallest_gap(const FreeSpace& space, const PccPoints& curve, double free_ends, double limit, double tolerance = 1e-5);
+CurveGap smallest_gap(const FreeSpace& space, const PccPoints& curve, double free_start, double free_finish, double limit, double tolerance);
 
 /// True: the gap is at least -tolerance everywhere outside the free ends, for certain. False: somewhere it is below -tolerance/2.
 /// Cheaper than smallest_gap.

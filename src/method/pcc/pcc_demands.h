@@ -18,6 +18,9 @@ struct PccDemands {
   double start_cone = 0, finish_cone = 0;  ///< rad, half angle within which the direction of an end may turn
   /// Arc length (m) at either end within which obstacles need not be kept clear of: the object has to reach what it is plugged to.
   double free_ends = 0;
+  bool free_start = true, free_finish = true;  ///< which ends that holds for
+  double start_free() const { return free_start ? free_ends : 0; }    ///< m
+  double finish_free() const { return free_finish ? free_ends : 0; }  ///< m
 };
 
 /// How far a curve is from keeping one of its demands.

@@ -39,7 +39,8 @@ void PccSamples::add(int piece, double from, double to, double length, bool aske
   grown_[piece] = std::min(grown_[piece], 1.5 * count * spacing_ / (to - from));
 }
 
-void PccSamples::plan(const PccShape& shape, const std::vector<double>& radii, double spacing, double free_ends, bool everywhere) {
+void PccSamples::plan(const PccShape& shape, const std::vector<double>& radii, double spacing, double free_start,
+                      double free_finish, bool everywhere) {
   samples_.clear();
   spacing_ = spacing;
   const int pieces = 2 * static_cast<int>(radii.size()) + 1;
@@ -53,14 +54,15 @@ void PccSamples::plan(const PccShape& shape, const std::vector<double>& radii, d
       if (length > 0) return std::clamp((s - begin) / length, 0.0, 1.0);
       return begin >= s ? 0.0 : 1.0;
     };
-    const double from = share_at(free_ends), to = share_at(whole - free_ends);
+    const double from = share_at(free_start), to = share_at(whole - free_finish);
     if (everywhere) add(piece, 0, std::min(from, to), length, false);
     add(piece, from, to, length, true);
     if (everywhere) add(piece, std::max(from, to), 1, length, false);
     // Just where the free ends end, too: surfaces that the curve comes from are nearest there.
-    if (free_ends > 0 && to > from)
-      for (const double share : {from, to})
-        if (share > 0 && share < 1) samples_.push_back({piece, true, share, 0});
+    if (to > from) {
+      if (free_start > 0 && from > 0) samples_.push_back({piece, true, from, 0});
+      if (free_finish > 0 && to < 1) samples_.push_back({piece, true, to, 0});
+    }
     begin += length;
   }
 }

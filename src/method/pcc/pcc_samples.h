@@ -14,8 +14,10 @@ namespace tendril::routing {
 class PccSamples {
  public:
   /// Chooses shares of each straight and arc, which stay until the next call: at most `spacing` (m) apart on this shape.
-  /// Places within `free_ends` (m) of an end are not asked about; they are there only with `everywhere` (for integrals).
-  void plan(const PccShape& shape, const std::vector<double>& radii, double spacing, double free_ends, bool everywhere);
+  /// Places within `free_start` and `free_finish` (m) of the ends are not asked about; they are there only with `everywhere` (for
+  /// integrals).
+  void plan(const PccShape& shape, const std::vector<double>& radii, double spacing, double free_start, double free_finish,
+            bool everywhere);
   /// True while no straight or arc has grown to more than 1.5 times the spacing between its samples.
   bool fits(const PccShape& shape, const std::vector<double>& radii) const;
 

@@ -27,7 +27,7 @@ PccTerms::PccTerms(const FreeSpace& space, const PccDemands& demands, const PccU
 
 void PccTerms::plan(const Eigen::VectorXd& x, double spacing) {
   unknowns_.evaluate(x, shape_);
-  if (sampled_) samples_.plan(shape_, unknowns_.radii(), spacing, demands_.free_ends, space_.has_preferences());
+  if (sampled_) samples_.plan(shape_, unknowns_.radii(), spacing, demands_.start_free(), demands_.finish_free(), space_.has_preferences());
   multipliers_.resize(fixed_ + samples_.size());
   slacks_.resize(fixed_ + samples_.size());
   std::fill(multipliers_.begin() + fixed_, multipliers_.end(), 0.0);

@@ -25,6 +25,8 @@ class PccTerms {
 
   /// m; fills the gradient. Allocates nothing after the first call.
   double operator()(const Eigen::VectorXd& x, Eigen::VectorXd& gradient);
+  /// By the ends, of the last evaluation; see PccUnknowns::pull_to_ends.
+  Ends by_ends(const Eigen::VectorXd& x) const { return unknowns_.pull_to_ends(x, adjoint_); }
   /// Without penalties, m. At x.
   double objective(const Eigen::VectorXd& x);
 

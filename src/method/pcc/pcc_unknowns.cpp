@@ -58,18 +58,7 @@ PccUnknowns::PccUnknowns(const PccDemands& demands, const Ends& ends, const std:
       said << "pcc: a bend radius of " << radius << " m; a finite one above 0 is expected";
       throw UsageError(said.str());
     }
-  const bool finite = all_finite(ends.start) && all_finite(ends.finish) && all_finite(ends.start_along) && all_finite(ends.finish_along);
-  if (!finite || ends.start_along.isZero(0) || ends.finish_along.isZero(0))
-    throw UsageError("pcc: an end without a finite place and direction");
-  const auto set = [](End& end, const Vec3& at, const Vec3& along, double sign) {
-    end.at = at;
-    end.along = along.stableNormalized();
-    end.side = end.along.unitOrthogonal();
-    end.up = end.along.cross(end.side);
-    end.sign = sign;
-  };
-  set(start_, ends.start, ends.start_along, 1);
-  set(finish_, ends.finish, ends.finish_along, -1);
+  move(ends);
   angle_unit_ = 2 * *std::min_element(radii.begin(), radii.end());
   // A single vertex lies on one end's direction; that of the end with the wider cone follows from it.
   if (radii.size() == 1) (demands.start_cone > demands.finish_cone ? start_ : finish_).tied = false;
@@ -84,6 +73,31 @@ PccUnknowns::PccUnknowns(const PccDemands& demands, const Ends& ends, const std:
   count(finish_, demands.finish_cone);
   inner_ = size_;
   size_ += 3 * std::max(0, bends() - 2);
+}
+
+void PccUnknowns::move(const Ends& ends) {
+  const bool finite = all_finite(ends.start) && all_finite(ends.finish) && all_finite(ends.start_along) && all_finite(ends.finish_along);
+  if (!finite || ends.start_along.isZero(0) || ends.finish_along.isZero(0))
+    throw UsageError("pcc: an end without a finite place and direction");
+  const auto set = [](End& end, const Vec3& at, const Vec3& along, double sign) {
+    end.at = at;
+    end.along = along.stableNormalized();
+    end.side = end.along.unitOrthogonal();
+    end.up = end.along.cross(end.side);
+    end.sign = sign;
+  };
+  set(start_, ends.start, ends.start_along, 1);
+  set(finish_, ends.finish, ends.finish_along, -1);
+}
+
+Ends PccUnknowns::pull_to_ends(const Eigen::VectorXd& x, const PccAdjoint& adjoint) const {
+  const int m = bends();
+  Ends by;
+  by.start = adjoint.points[0] + adjoint.points[1];
+  by.start_along = adjoint.along.front() + x[start_.distance] * adjoint.points[1];
+  by.finish = adjoint.points[m + 1] + adjoint.points[m];
+  by.finish_along = adjoint.along.back() - x[finish_.distance] * adjoint.points[m];
+  return by;
 }
 
 Vec3 PccUnknowns::direction(const End& end, const Eigen::VectorXd& x) const {

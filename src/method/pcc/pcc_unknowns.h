@@ -54,6 +54,12 @@ class PccUnknowns {
   /// The gradient by the unknowns; uses up the adjoint.
   void pull_back(const Eigen::VectorXd& x, const PccShape& shape, PccAdjoint& adjoint, Eigen::VectorXd& gradient) const;
 
+  /// Other ends; the unknowns mean the same as before, seen from there. Throws UsageError as the constructor does.
+  void move(const Ends& ends);
+  /// Derivatives by the ends' places (1/m) and by their directions as if those were any vectors, after pull_back(). Of ends
+  /// without a cone, and at least two bends.
+  Ends pull_to_ends(const Eigen::VectorXd& x, const PccAdjoint& adjoint) const;
+
   /// How far the directions at start and finish have turned away (rad), and its derivatives added to a gradient or adjoint.
   double start_turn(const PccShape& shape) const { return turn_between(start_.along, shape.along.front()); }
   double finish_turn(const PccShape& shape) const { return turn_between(finish_.along, shape.along.back()); }

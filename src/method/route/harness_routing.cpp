@@ -1,0 +1,245 @@
+#include "method/route/harness_routing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/number_text.h"
+#include "base/units.h"
+#include "method/free_space/bottleneck.h"
+#include "method/preform/end_lead.h"
+#include "method/route/harness_scene.h"
+#include "method/route/harness_smoothing.h"
+
+namespace tendril::routing {
+
+namespace {
+
+// The smallest gap of a route is looked for up to here, m.
+constexpr double farthest_clearance = 0.5;
+
+void require(bool holds, const std::string& what) {
+  if (!holds) throw UsageError("harness: " + what);
+}
+
+std::string mm(double value) { return number_text(std::round(value / units::mm * 10) / 10) + " mm"; }
+
+void check(const HarnessOptions& options) {
+  const int count = static_cast<int>(options.connections.size());
+  require(count >= 2, std::to_string(count) + " connections, 2 to 9 expected");
+  for (int c = 0; c < count; ++c) {
+    const Frame& frame = options.connections[c];
+    require(all_finite(frame.at) && frame.rotation.coeffs().allFinite() && std::abs(frame.rotation.norm() - 1) < 1e-6,
+            "connection " + std::to_string(c + 1) + " is not a finite place with a rotation");
+    for (int d = 0; d < c; ++d)
+      require((options.connections[d].at - frame.at).norm() > 1e-6,
+              "connections " + std::to_string(d + 1) + " and " + std::to_string(c + 1) + " are in one place");
+  }
+  require(options.names.empty() || static_cast<int>(options.names.size()) == count,
+          std::to_string(options.names.size()) + " names for " + std::to_string(count) + " connections");
+  options.section.check();
+  require(std::isfinite(options.min_bend_radius) && options.min_bend_radius > options.section.radius(),
+          "the bend radius is " + mm(options.min_bend_radius) + ", more than the section's own radius of " + mm(options.section.radius()) +
+              " expected; bend radii are those of the centre line");
+  const std::pair<const char*, double> lengths[] = {{"min_straight", options.min_straight}, {"end_straight", options.end_straight},
+                                                    {"free_ends", options.free_ends}, {"min_branch", options.min_branch}};
+  for (const auto& [name, value] : lengths)
+    require(std::isfinite(value) && value >= 0, std::string("'") + name + "' is " + number_text(value) + " m, a length of at least 0 expected");
+  require(options.max_bends >= 2 && options.max_bends <= 30, "'max_bends' is " + std::to_string(options.max_bends) + ", 2 to 30 expected");
+  require(std::isfinite(options.grid) && options.grid > 0, "'grid' is " + number_text(options.grid) + " m, a length above 0 expected");
+  require(std::isfinite(options.segment) && options.segment > 0, "'segment' is " + number_text(options.segment) + " m, a length above 0 expected");
+}
+
+std::string name_of_connection(const HarnessOptions& options, int number) {
+  return options.names.empty() ? std::to_string(number + 1) : options.names[number];
+}
+
+std::string name_of_end(const HarnessOptions& options, const HarnessEnd& end) {
+  return end.junction ? "junction " + std::to_string(end.number + 1) : name_of_connection(options, end.number);
+}
+
+/// Free places of the grid around a tip that can be reached straight from there.
+std::vector<Roadmap::Goal> goals_around(const FreeSpace& space, const Roadmap& roadmap, const Vec3& tip, double way) {
+  std::vector<Roadmap::Goal> goals;
+  const std::array<int, 3> middle = roadmap.nearest(tip);
+  for (int reach = 1; reach <= 2 && goals.empty(); ++reach)
+    for (int z = -reach; z <= reach; ++z)
+      for (int y = -reach; y <= reach; ++y)
+        for (int x = -reach; x <= reach; ++x) {
+          const std::array<int, 3> cell{middle[0] + x, middle[1] + y, middle[2] + z};
+          if (!roadmap.holds(cell)) continue;
+          const int node = roadmap.node(cell);
+          if (!roadmap.is_free(node) || !space.is_free(tip, roadmap.place(node))) continue;
+          goals.push_back({node, way + (roadmap.place(node) - tip).norm()});
+        }
+  return goals;
+}
+
+/// One call's parts.
+class HarnessRouting {
+ public:
+  HarnessRouting(const Scene& scene, HarnessResult& result, const RunContext& context)
+      : scene_(scene), r_(result), options_(result.options), context_(context), steps_(result.steps) {}
+
+  void run() {
+    r_.status = Status::solved;
+    open();
+    for (const auto step : {&HarnessRouting::find_tree, &HarnessRouting::smooth_branches, &HarnessRouting::improve_junctions,
+                            &HarnessRouting::certify, &HarnessRouting::come_to_rest})
+      if (!ended()) (this->*step)();
+    ended();
+    conclude();
+  }
+
+ private:
+  bool ended() {
+    if (const auto status = context_.stop(); status && r_.status == Status::solved) r_.status = *status;
+    return r_.status != Status::solved;
+  }
+  void refuse(std::string why) {
+    r_.status = Status::infeasible;
+    r_.message = std::move(why);
+  }
+
+  void open() {
+    std::vector<Vec3> ends;
+    for (const Frame& frame : options_.connections) ends.push_back(frame.at);
+    const double margin = 4 * options_.min_bend_radius + options_.space.radius + options_.space.clearance;
+    r_.space = std::make_shared<const FreeSpace>(scene_, options_.space, ends, margin, context_);
+    steps_.end("distance_field", {{"obstacles", r_.space->surroundings().size()}});
+  }
+
+  void find_tree() {
+    const FreeSpace& space = *r_.space;
+    ShapeBranch from_connection;
+    const PccDemands demands = demands_of(options_, from_connection);
+    for (std::size_t c = 0; c < options_.connections.size(); ++c) {
+      const Frame& frame = options_.connections[c];
+      const preform::EndLead lead = preform::end_lead(space, demands, frame.at, frame.d3(), 0, "connection " + name_of_connection(options_, static_cast<int>(c)));
+      if (!lead.obstruction.empty()) return refuse(lead.obstruction);
+      tips_.push_back(lead.tip);
+    }
+    const Roadmap roadmap(space, options_.grid, context_);
+    std::vector<std::vector<Roadmap::Goal>> goals;
+    for (std::size_t c = 0; c < tips_.size(); ++c)
+      goals.push_back(goals_around(space, roadmap, tips_[c], (tips_[c] - options_.connections[c].at).norm()));
+    TreeOptions tree_options;
+    tree_options.wires = options_.wires;
+    tree_options.bundling = options_.bundling;
+    const HarnessTree tree = best_tree(roadmap, goals, tree_options, context_);
+    steps_.end("tree", {{"free nodes", roadmap.free_nodes()}, {"labels", tree.labels}, {"junctions", long(tree.junctions.size())}});
+    if (tree.status == Status::infeasible) return refuse(why_apart(tree));
+    if (tree.status != Status::solved) {
+      r_.status = tree.status;
+      return;
+    }
+    const double least = options_.min_branch > 0 ? options_.min_branch : options_.min_bend_radius + 2 * options_.end_straight;
+    shape_ = shape_of(roadmap, tree, options_, tips_, least);
+  }
+
+  std::string why_apart(const HarnessTree& tree) const {
+    const auto& [a, b] = tree.apart;
+    const std::string grid = "the grid of " + mm(options_.grid);
+    if (a == b) return "connection " + name_of_connection(options_, a) + ": no free place of " + grid + " near it; take a smaller 'grid'";
+    const Bottleneck narrow = bottleneck_between(*r_.space, tips_[a], tips_[b], options_.grid, context_);
+    return "connections " + name_of_connection(options_, a) + " and " + name_of_connection(options_, b) + ": " +
+           text_of(narrow, *r_.space, options_.grid);
+  }
+
+  void smooth_branches() {
+    missed_ = smooth(*r_.space, options_, shape_, context_);
+    steps_.end("smoothing", {{"branches", long(shape_.branches.size())}, {"infeasible", infeasible()}});
+  }
+  void improve_junctions() {
+    if (options_.improve) improve(*r_.space, options_, shape_, missed_, context_);
+    steps_.end("improvement", {{"junctions", long(shape_.junctions.size())}, {"infeasible", infeasible()}});
+  }
+  long infeasible() const {
+    return std::count_if(missed_.begin(), missed_.end(), [](const auto& of_branch) { return !of_branch.empty(); });
+  }
+
+  void certify() {
+    for (std::size_t b = 0; b < shape_.branches.size(); ++b) take_branch(static_cast<int>(b));
+    for (const ShapeJunction& j : shape_.junctions) r_.junctions.push_back({Frame::looking(j.at, j.leaving[0]), j.branches, {}});
+    steps_.end("certificate", {{"violations", long(r_.misses.size())}});
+    if (r_.misses.empty()) return;
+    refuse("no harness was found that keeps all that is demanded; the nearest one has " + r_.misses.front());
+  }
+
+  void take_branch(int number) {
+    const ShapeBranch& shape = shape_.branches[number];
+    HarnessBranch branch;
+    branch.name = "branch " + std::to_string(number + 1);
+    branch.from = shape.from;
+    branch.to = shape.to;
+    branch.wires = shape.wires;
+    branch.points = shape.points;
+    branch.length = shape.points.length();
+    branch.violations = missed_[number];
+    branch.min_bend_radius = shape.points.bends() ? *std::min_element(shape.points.radii.begin(), shape.points.radii.end())
+                                                  : std::numeric_limits<double>::infinity();
+    const PccDemands demands = demands_of(options_, shape);
+    const FreeSpace& space = *r_.space;
+    branch.clearance = smallest_gap(space, shape.points, demands.start_free(), demands.finish_free(), farthest_clearance, 1e-5);
+    const int obstacle = branch.clearance.obstacle;
+    if (obstacle >= 0) {
+      branch.clearance_to = space.name(obstacle);
+      if (obstacle < space.surroundings().size()) branch.clearance.value += space.surroundings().clearance(obstacle);
+    }
+    if (!branch.violations.empty())
+      r_.misses.push_back(branch.name + " (" + name_of_end(options_, branch.from) + " to " + name_of_end(options_, branch.to) +
+                          "): " + text_of(branch.violations.front(), space));
+    const double preference = preference_along(space, shape.points);
+    r_.preference += preference;
+    r_.cost += shape.factor * (branch.length + preference);
+    r_.harness_length += branch.length;
+    r_.cable_length += branch.length * static_cast<double>(branch.wires.size());
+    r_.branches.push_back(std::move(branch));
+  }
+
+  void come_to_rest() {
+    if (!options_.equilibrium) return;
+    settle(scene_, r_, context_);
+    const SceneEquilibrium& eq = *r_.equilibrium;
+    steps_.end("equilibrium", {{"rods", long(eq.rods.size())}, {"iterations", eq.iterations()}});
+    if (eq.ok()) return;
+    r_.status = eq.status();
+    if (eq.status() == Status::stalled || eq.status() == Status::infeasible) r_.message = "the route keeps all that is demanded, but no equilibrium was found: " + eq.message();
+  }
+
+  void conclude() {
+    r_.ok = r_.status == Status::solved;
+    r_.seconds = steps_.seconds();
+    if (r_.status == Status::timeout || r_.status == Status::cancelled)
+      r_.message = std::string(r_.status == Status::timeout ? "out of time" : "cancelled") +
+                   (r_.branches.empty() ? "; no route yet" : "; the route is there, its equilibrium is not");
+    if (!r_.ok) return;
+    const auto count = [](std::size_t n, const char* one, const char* more) { return std::to_string(n) + " " + (n == 1 ? one : more); };
+    r_.message = count(r_.branches.size(), "branch", "branches") + ", " + count(r_.junctions.size(), "junction", "junctions") + ", " +
+                 number_text(std::round(r_.harness_length / units::mm)) + " mm of harness, " +
+                 number_text(std::round(r_.cable_length / units::mm)) + " mm of wires";
+    if (r_.length_in_collision > 0) r_.message += "; at rest " + mm(r_.length_in_collision) + " of it penetrate obstacles";
+  }
+
+  const Scene& scene_;
+  HarnessResult& r_;
+  const HarnessOptions& options_;
+  const RunContext& context_;
+  StepClock steps_;
+  std::vector<Vec3> tips_;
+  HarnessShape shape_;
+  ShapeViolations missed_;
+};
+
+}  // namespace
+
+HarnessResult route_harness(const Scene& scene, const HarnessOptions& options, const RunContext& context) {
+  check(options);
+  HarnessResult result;
+  result.options = options;
+  result.options.space.radius = options.section.radius();
+  HarnessRouting(scene, result, context).run();
+  return result;
+}
+
+}  // namespace tendril::routing

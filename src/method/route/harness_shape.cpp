@@ -1,0 +1,137 @@
+#include "method/route/harness_shape.h"
+
+#include <algorithm>
+#include <array>
+
+namespace tendril::routing {
+
+namespace {
+
+double length_of(const std::vector<Vec3>& path) {
+  double sum = 0;
+  for (std::size_t i = 0; i + 1 < path.size(); ++i) sum += (path[i + 1] - path[i]).norm();
+  return sum;
+}
+
+/// From the first point of a path towards what is `reach` (m) along it.
+Vec3 heading(const std::vector<Vec3>& path, double reach) {
+  Vec3 at = path.back();
+  double gone = 0;
+  for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+    const double edge = (path[i + 1] - path[i]).norm();
+    if (gone + edge >= reach && edge > 0) {
+      at = path[i] + (reach - gone) / edge * (path[i + 1] - path[i]);
+      break;
+    }
+    gone += edge;
+  }
+  const Vec3 way = at - path.front();
+  return way.norm() > 0 ? Vec3(way.normalized()) : Vec3(Vec3::UnitX());
+}
+
+bool is_at(const HarnessEnd& end, int junction) { return end.junction && end.number == junction; }
+
+/// Takes the branch out: its path goes on in all others that meet its second junction.
+void contract(HarnessShape& shape, int gone) {
+  const ShapeBranch taken = shape.branches[gone];
+  shape.branches.erase(shape.branches.begin() + gone);
+  const int from = taken.from.number, to = taken.to.number;
+  for (ShapeBranch& branch : shape.branches) {
+    if (is_at(branch.from, to)) {
+      branch.path.insert(branch.path.begin(), taken.path.begin(), taken.path.end() - 1);
+      branch.from.number = from;
+    } else if (is_at(branch.to, to)) {
+      branch.path.insert(branch.path.end(), taken.path.rbegin() + 1, taken.path.rend());
+      branch.to.number = from;
+    }
+  }
+  shape.junctions.erase(shape.junctions.begin() + to);
+  for (ShapeBranch& branch : shape.branches)
+    for (HarnessEnd* end : {&branch.from, &branch.to})
+      if (end->junction && end->number > to) --end->number;
+}
+
+/// The two branches that continue each other best, first; and all directions.
+void choose_trunk(HarnessShape& shape, int junction, double reach) {
+  ShapeJunction& j = shape.junctions[junction];
+  for (std::size_t b = 0; b < shape.branches.size(); ++b) {
+    const ShapeBranch& branch = shape.branches[b];
+    if (!is_at(branch.from, junction) && !is_at(branch.to, junction)) continue;
+    j.branches.push_back(static_cast<int>(b));
+    std::vector<Vec3> path = branch.path;
+    if (is_at(branch.to, junction)) std::reverse(path.begin(), path.end());
+    j.leaving.push_back(heading(path, reach));
+  }
+  std::size_t one = 0, two = 1;
+  for (std::size_t a = 0; a < j.leaving.size(); ++a)
+    for (std::size_t b = a + 1; b < j.leaving.size(); ++b)
+      if (j.leaving[a].dot(j.leaving[b]) < j.leaving[one].dot(j.leaving[two]) - 1e-9) one = a, two = b;
+  for (const auto& [to, from] : {std::array{std::size_t(0), one}, std::array{std::size_t(1), two}}) {
+    std::swap(j.branches[to], j.branches[from]);
+    std::swap(j.leaving[to], j.leaving[from]);
+  }
+  const Vec3 through = j.leaving[0] - j.leaving[1];
+  if (through.norm() > 1e-6) j.leaving[0] = through.normalized();
+  j.leaving[1] = -j.leaving[0];
+}
+
+}  // namespace
+
+Ends HarnessShape::ends(int branch, const std::vector<Frame>& connections) const {
+  const ShapeBranch& b = branches[branch];
+  const auto place = [&](const HarnessEnd& end) { return end.junction ? junctions[end.number].at : connections[end.number].at; };
+  const auto out = [&](const HarnessEnd& end) -> Vec3 {
+    if (!end.junction) return connections[end.number].d3();
+    const ShapeJunction& j = junctions[end.number];
+    return j.leaving[std::find(j.branches.begin(), j.branches.end(), branch) - j.branches.begin()];
+  };
+  return {place(b.from), out(b.from), place(b.to), -out(b.to)};
+}
+
+double HarnessShape::cost() const {
+  double sum = 0;
+  for (const ShapeBranch& branch : branches) sum += branch.factor * branch.points.length();
+  return sum;
+}
+
+HarnessShape shape_of(const Roadmap& roadmap, const HarnessTree& tree, const HarnessOptions& options, const std::vector<Vec3>& tips,
+                      double least) {
+  HarnessShape shape;
+  const int connections = static_cast<int>(options.connections.size());
+  shape.junctions.resize(tree.junctions.size());
+  const auto end_of = [&](int end) { return end < connections ? HarnessEnd{false, end} : HarnessEnd{true, end - connections}; };
+  for (const TreeBranch& branch : tree.branches) {
+    ShapeBranch b{end_of(branch.from), end_of(branch.to), branch.wires, 1, {}, {}};
+    b.factor = options.bundling + (1 - options.bundling) * static_cast<double>(branch.wires.size());
+    if (!b.from.junction) b.path = {options.connections[b.from.number].at, tips[b.from.number]};
+    for (const int node : branch.nodes) b.path.push_back(roadmap.place(node));
+    if (!b.to.junction) b.path.insert(b.path.end(), {tips[b.to.number], options.connections[b.to.number].at});
+    shape.branches.push_back(std::move(b));
+  }
+  for (std::size_t b = 0; b < shape.branches.size();) {
+    const ShapeBranch& branch = shape.branches[b];
+    if (branch.from.junction && branch.to.junction && length_of(branch.path) < least) contract(shape, static_cast<int>(b)), b = 0;
+    else ++b;
+  }
+  for (std::size_t j = 0; j < shape.junctions.size(); ++j) {
+    for (const ShapeBranch& branch : shape.branches) {
+      if (is_at(branch.from, static_cast<int>(j))) shape.junctions[j].at = branch.path.front();
+      else if (is_at(branch.to, static_cast<int>(j))) shape.junctions[j].at = branch.path.back();
+    }
+    choose_trunk(shape, static_cast<int>(j), 2 * options.min_bend_radius + options.end_straight);
+  }
+  return shape;
+}
+
+PccDemands demands_of(const HarnessOptions& options, const ShapeBranch& branch) {
+  PccDemands demands;
+  demands.radii = {options.min_bend_radius};
+  demands.min_straight = options.min_straight;
+  demands.end_straight = options.end_straight;
+  demands.free_ends = options.free_ends;
+  demands.free_start = !branch.from.junction;
+  demands.free_finish = !branch.to.junction;
+  return demands;
+}
+
+}  // namespace tendril::routing

@@ -1,0 +1,111 @@
+#include "method/route/harness_smoothing.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "method/preform/pcc_optimization.h"
+#include "method/route/harness_descent.h"
+
+namespace tendril::routing {
+
+namespace {
+
+using preform::Candidate;
+using preform::Optimized;
+
+preform::Options options_of(const HarnessOptions& options, const HarnessShape& shape, int branch) {
+  preform::Options one;
+  one.ends = shape.ends(branch, options.connections);
+  one.space = options.space;
+  one.curve = demands_of(options, shape.branches[branch]);
+  one.max_bends = options.max_bends;
+  one.grid = options.grid;
+  return one;
+}
+
+bool is_better(const Optimized& a, const Optimized& b) {
+  if (a.violations.empty() != b.violations.empty()) return a.violations.empty();
+  return a.violations.empty() ? a.objective < b.objective : a.violations.front().by < b.violations.front().by;
+}
+
+std::vector<Optimized> best_of(std::vector<Optimized> curves) {
+  const auto best = std::min_element(curves.begin(), curves.end(), is_better);
+  if (best == curves.end()) return {};
+  return {std::move(*best)};
+}
+
+/// From the path over the grid, or the curve there is.
+std::vector<Optimized> smoothed(const FreeSpace& space, const preform::Options& one, const std::vector<Vec3>& path, const RunContext& context) {
+  preform::GlobalPaths paths;
+  paths.paths.push_back(path);
+  std::vector<Optimized> best = best_of(pcc_optimization(space, one, pcc_sampling(space, one, paths, context), context));
+  polish(space, one, best, context);
+  return best;
+}
+
+double misses(const ShapeViolations& violations) {
+  double sum = 0;
+  for (const std::vector<Violation>& of_branch : violations)
+    if (!of_branch.empty()) sum += 1 + std::min(1.0, of_branch.front().by);
+  return sum;
+}
+
+double objective(const FreeSpace& space, const HarnessShape& shape) {
+  double sum = shape.cost();
+  if (!space.has_preferences()) return sum;
+  for (const ShapeBranch& branch : shape.branches) sum += branch.factor * preference_along(space, branch.points);
+  return sum;
+}
+
+}  // namespace
+
+double preference_along(const FreeSpace& space, const PccPoints& curve) {
+  if (!space.has_preferences()) return 0;
+  constexpr double spacing = 2e-3;
+  double sum = 0;
+  for (const PccPiece& piece : pieces_of(curve)) {
+    const int count = std::clamp(static_cast<int>(std::ceil(piece.length / spacing)), 1, 100000);
+    for (int i = 0; i < count; ++i) sum += (space.cost(piece.at((i + 0.5) / count)) - 1) * piece.length / count;
+  }
+  return sum;
+}
+
+ShapeViolations smooth(const FreeSpace& space, const HarnessOptions& options, HarnessShape& shape, const RunContext& context) {
+  ShapeViolations violations(shape.branches.size());
+  for (std::size_t b = 0; b < shape.branches.size(); ++b) {
+    ShapeBranch& branch = shape.branches[b];
+    const preform::Options one = options_of(options, shape, static_cast<int>(b));
+    branch.points = {{one.ends.start, one.ends.finish}, {}};
+    const std::vector<Optimized> best = smoothed(space, one, branch.path, context);
+    if (!best.empty()) branch.points = best.front().points;
+    violations[b] = best.empty() ? routing::violations(space, one.curve, one.ends, branch.points) : best.front().violations;
+  }
+  return violations;
+}
+
+void improve(const FreeSpace& space, const HarnessOptions& options, HarnessShape& shape, ShapeViolations& violations,
+             const RunContext& context) {
+  if (shape.junctions.empty()) return;
+  HarnessShape moved = descend_together(space, options, shape, context);
+  ShapeViolations missed(moved.branches.size());
+  for (std::size_t b = 0; b < moved.branches.size() && !context.stop(); ++b) {
+    ShapeBranch& branch = moved.branches[b];
+    const preform::Options one = options_of(options, moved, static_cast<int>(b));
+    std::vector<Optimized> best = pcc_optimization(space, one, {{branch.points, -1}}, context);
+    if (best.empty()) return;
+    polish(space, one, best, context);
+    if (!best.front().violations.empty()) {
+      const std::vector<Optimized> other = smoothed(space, one, branch.points.points, context);
+      if (!other.empty() && is_better(other.front(), best.front())) best = other;
+    }
+    branch.points = best.front().points;
+    missed[b] = best.front().violations;
+  }
+  if (context.stop()) return;
+  const double before = misses(violations), after = misses(missed);
+  if (after > before || (after == before && !(objective(space, moved) < objective(space, shape)))) return;
+  shape = std::move(moved);
+  violations = std::move(missed);
+}
+
+}  // namespace tendril::routing
