@@ -15,7 +15,7 @@ struct PccDemands {
   double end_straight = 0;          ///< m, between an end and its nearest bend
   double min_length = 0, max_length = std::numeric_limits<double>::infinity();  ///< m
   double max_turn = 3.0;            ///< rad, of one bend
-  double start_cone = 0, finish_cone = 0;  ///< rad, half angle within which the direction of an end may turn
+  double start_cone = 0, finish_cone = 0;  ///< rad, half angle within which the direction of an end may turn; pi: any direction
   /// Arc length (m) at either end within which obstacles need not be kept clear of: the object has to reach what it is plugged to.
   double free_ends = 0;
   bool free_start = true, free_finish = true;  ///< which ends that holds for

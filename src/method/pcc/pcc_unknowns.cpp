@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "base/units.h"
 
 namespace tendril::routing {
 
@@ -61,7 +62,9 @@ PccUnknowns::PccUnknowns(const PccDemands& demands, const Ends& ends, const std:
   move(ends);
   angle_unit_ = 2 * *std::min_element(radii.begin(), radii.end());
   // A single vertex lies on one end's direction; that of the end with the wider cone follows from it.
-  if (radii.size() == 1) (demands.start_cone > demands.finish_cone ? start_ : finish_).tied = false;
+  start_.tied = demands.start_cone < units::pi;
+  finish_.tied = demands.finish_cone < units::pi;
+  if (radii.size() == 1 && start_.tied && finish_.tied) (demands.start_cone > demands.finish_cone ? start_ : finish_).tied = false;
   const auto count = [this](End& end, double cone) {
     if (!end.tied) return;
     end.distance = size_++;
@@ -72,7 +75,9 @@ PccUnknowns::PccUnknowns(const PccDemands& demands, const Ends& ends, const std:
   count(start_, demands.start_cone);
   count(finish_, demands.finish_cone);
   inner_ = size_;
-  size_ += 3 * std::max(0, bends() - 2);
+  first_ = start_.tied ? 2 : 1;
+  inner_count_ = bends() - (start_.tied ? 1 : 0) - (finish_.tied ? 1 : 0);
+  size_ += 3 * inner_count_;
 }
 
 void PccUnknowns::move(const Ends& ends) {
@@ -93,10 +98,17 @@ void PccUnknowns::move(const Ends& ends) {
 Ends PccUnknowns::pull_to_ends(const Eigen::VectorXd& x, const PccAdjoint& adjoint) const {
   const int m = bends();
   Ends by;
-  by.start = adjoint.points[0] + adjoint.points[1];
-  by.start_along = adjoint.along.front() + x[start_.distance] * adjoint.points[1];
-  by.finish = adjoint.points[m + 1] + adjoint.points[m];
-  by.finish_along = adjoint.along.back() - x[finish_.distance] * adjoint.points[m];
+  by.start = adjoint.points[0];
+  by.finish = adjoint.points[m + 1];
+  by.start_along = by.finish_along = Vec3::Zero();
+  if (start_.tied) {
+    by.start += adjoint.points[1];
+    by.start_along = adjoint.along.front() + x[start_.distance] * adjoint.points[1];
+  }
+  if (finish_.tied) {
+    by.finish += adjoint.points[m];
+    by.finish_along = adjoint.along.back() - x[finish_.distance] * adjoint.points[m];
+  }
   return by;
 }
 
@@ -126,7 +138,7 @@ Eigen::VectorXd PccUnknowns::nearest(const PccPoints& curve) const {
   Eigen::VectorXd x = Eigen::VectorXd::Zero(size_);
   place_end(start_, curve.points[1], x);
   place_end(finish_, curve.points[bends()], x);
-  for (int i = 0; i < bends() - 2; ++i) x.segment<3>(inner_ + 3 * i) = curve.points[i + 2];
+  for (int i = 0; i < inner_count_; ++i) x.segment<3>(inner_ + 3 * i) = curve.points[first_ + i];
   return x;
 }
 
@@ -148,7 +160,7 @@ void PccUnknowns::evaluate(const Eigen::VectorXd& x, PccShape& shape) const {
     shape.edges.back() = x[finish_.distance];
     shape.points[m] = finish_.at - x[finish_.distance] * shape.along.back();
   }
-  for (int i = 0; i < m - 2; ++i) shape.points[i + 2] = x.segment<3>(inner_ + 3 * i);
+  for (int i = 0; i < inner_count_; ++i) shape.points[first_ + i] = x.segment<3>(inner_ + 3 * i);
   for (int i = start_.tied ? 1 : 0; i < (finish_.tied ? m : m + 1); ++i) {
     const Vec3 edge = shape.points[i + 1] - shape.points[i];
     shape.edges[i] = edge.norm();
@@ -206,7 +218,7 @@ void PccUnknowns::pull_back(const Eigen::VectorXd& x, const PccShape& shape, Pcc
   }
   if (start_.tied) pull_end(start_, x, adjoint.edges.front(), adjoint.along.front(), adjoint.points[1], gradient);
   if (finish_.tied) pull_end(finish_, x, adjoint.edges.back(), adjoint.along.back(), adjoint.points[m], gradient);
-  for (int i = 0; i < m - 2; ++i) gradient.segment<3>(inner_ + 3 * i) = adjoint.points[i + 2];
+  for (int i = 0; i < inner_count_; ++i) gradient.segment<3>(inner_ + 3 * i) = adjoint.points[first_ + i];
 }
 
 }  // namespace tendril::routing

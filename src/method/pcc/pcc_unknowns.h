@@ -1,7 +1,8 @@
 // From the unknowns of a curve of straights and arcs to its geometry, and from derivatives by the geometry back to the unknowns.
 //
 // Unknowns: the distance along either end's direction to its vertex, two angles for each end that may turn within a cone, and
-// the inner vertices. With a single vertex only one end has these unknowns; the direction at the other one follows.
+// the inner vertices. With a single vertex only one end has these unknowns; the direction at the other one follows. So it does
+// at ends that may have any direction (cones of pi): the vertices next to them are inner ones.
 #pragma once
 
 #include <vector>
@@ -56,8 +57,8 @@ class PccUnknowns {
 
   /// Other ends; the unknowns mean the same as before, seen from there. Throws UsageError as the constructor does.
   void move(const Ends& ends);
-  /// Derivatives by the ends' places (1/m) and by their directions as if those were any vectors, after pull_back(). Of ends
-  /// without a cone, and at least two bends.
+  /// Derivatives by the ends' places (1/m) and by their directions as if those were any vectors, after pull_back(). Of ends whose
+  /// directions are fixed or may be any, and curves with as many bends as fixed directions.
   Ends pull_to_ends(const Eigen::VectorXd& x, const PccAdjoint& adjoint) const;
 
   /// How far the directions at start and finish have turned away (rad), and its derivatives added to a gradient or adjoint.
@@ -85,6 +86,7 @@ class PccUnknowns {
   std::vector<double> radii_;
   double angle_unit_ = 1;   ///< m per rad: makes the angles comparable with the other unknowns
   int inner_ = 0;           ///< index of the first inner vertex's coordinates
+  int first_ = 2, inner_count_ = 0;  ///< inner vertices: those that lie on no end's direction
   int size_ = 0;
 };
 

@@ -13,16 +13,33 @@ namespace {
 
 // Penalty weights times the bend radius, as in descents of single curves.
 constexpr double first_weight = 5, second_weight = 500;
-constexpr int iterations = 250;
+constexpr int iterations = 400;
 // What is demanded is held with this much to spare (m, and share of the radius), so that ends which stay leave room to keep it.
 constexpr double margin = 1e-3, slack = 0.01;
 
-/// At least two bends, so that both ends' directions are kept whatever they are.
+// rad: bends that turn less are left out and, where there are too few, made anew with room around them. A straight end that is as
+// short as it may be has a kink where its bend does not turn: descents would end there.
+constexpr double hardly_turned = 0.02;
+
+PccPoints without_idle_bends(const PccPoints& curve) {
+  PccPoints less{{curve.points.front()}, {}};
+  const std::vector<Vec3> along = edge_directions(curve.points);
+  for (int i = 0; i < curve.bends(); ++i) {
+    if (turn_between(along[i], along[i + 1]) < hardly_turned) continue;
+    less.points.push_back(curve.points[i + 1]);
+    less.radii.push_back(curve.radii[i]);
+  }
+  less.points.push_back(curve.points.back());
+  return less;
+}
+
+/// At least two bends, so that both ends' directions can be kept whatever they are.
 PccPoints with_two_bends(const PccPoints& curve, double radius) {
   PccPoints more = curve;
   const std::vector<Vec3>& p = curve.points;
   if (curve.bends() == 0) {
-    more.points = {p[0], (2 * p[0] + p[1]) / 3, (p[0] + 2 * p[1]) / 3, p[1]};
+    const double share = std::min(1.0 / 3, radius / (p[1] - p[0]).norm());  // near the ends, where directions change
+    more.points = {p[0], p[0] + share * (p[1] - p[0]), p[1] - share * (p[1] - p[0]), p[1]};
     more.radii = {radius, radius};
   } else if (curve.bends() == 1) {
     const double in = (p[1] - p[0]).norm(), out = (p[2] - p[1]).norm(), back = 0.25 * std::min({in, out, radius});
@@ -49,14 +66,12 @@ class HarnessTerms {
  public:
   HarnessTerms(const FreeSpace& space, const HarnessOptions& options, const HarnessShape& shape) : options_(options), shape_(shape) {
     unit_ = options.min_bend_radius;
-    for (const ShapeJunction& junction : shape.junctions) {
-      junctions_.push_back(size_);
-      size_ += 3 * static_cast<int>(junction.branches.size());  // the place, and all directions but the second
-    }
+    for (std::size_t j = 0; j < shape.junctions.size(); ++j) junctions_.push_back(6 * static_cast<int>(j));  // place and trunk
+    size_ = 6 * static_cast<int>(shape.junctions.size());
     for (std::size_t b = 0; b < shape.branches.size(); ++b) {
       ShapeBranch& branch = shape_.branches[b];
-      branch.points = with_two_bends(branch.points, unit_);
-      branches_.push_back(std::make_unique<BranchTerms>(space, demands_of(options, branch), shape.ends(static_cast<int>(b), options.connections),
+      branch.points = with_two_bends(without_idle_bends(branch.points), unit_);
+      branches_.push_back(std::make_unique<BranchTerms>(space, demands_of(options, branch, shape.cones(static_cast<int>(b))), shape.ends(static_cast<int>(b), options.connections),
                                                         branch.points.radii));
       branches_.back()->first = size_;
       size_ += branches_.back()->unknowns.size();
@@ -68,8 +83,7 @@ class HarnessTerms {
     for (std::size_t j = 0; j < junctions_.size(); ++j) {
       const ShapeJunction& junction = shape_.junctions[j];
       x.segment<3>(junctions_[j]) = junction.at;
-      for (std::size_t k = 0; k < junction.leaving.size(); ++k)
-        if (k != 1) x.segment<3>(direction(static_cast<int>(j), k)) = unit_ * junction.leaving[k];
+      x.segment<3>(junctions_[j] + 3) = unit_ * junction.leaving[0];
     }
     for (std::size_t b = 0; b < branches_.size(); ++b)
       x.segment(branches_[b]->first, branches_[b]->unknowns.size()) = branches_[b]->unknowns.nearest(shape_.branches[b].points);
@@ -81,8 +95,7 @@ class HarnessTerms {
     for (std::size_t j = 0; j < junctions_.size(); ++j) {
       ShapeJunction& junction = shape_.junctions[j];
       junction.at = x.segment<3>(junctions_[j]);
-      for (std::size_t k = 0; k < junction.leaving.size(); ++k)
-        if (k != 1) junction.leaving[k] = x.segment<3>(direction(static_cast<int>(j), k)).normalized();
+      junction.leaving[0] = x.segment<3>(junctions_[j] + 3).normalized();
       junction.leaving[1] = -junction.leaving[0];
     }
     for (std::size_t b = 0; b < branches_.size(); ++b) branches_[b]->unknowns.move(shape_.ends(static_cast<int>(b), options_.connections));
@@ -100,9 +113,8 @@ class HarnessTerms {
   }
 
   double operator()(const Eigen::VectorXd& x, Eigen::VectorXd& gradient) {
-    for (std::size_t j = 0; j < junctions_.size(); ++j)
-      for (std::size_t k = 0; k < shape_.junctions[j].leaving.size(); ++k)
-        if (k != 1 && x.segment<3>(direction(static_cast<int>(j), k)).isZero(1e-6 * unit_)) return std::numeric_limits<double>::infinity();
+    for (const int first : junctions_)
+      if (!(x.segment<3>(first + 3).norm() > 1e-6 * unit_)) return std::numeric_limits<double>::infinity();
     place(x);
     gradient.setZero(size_);
     double sum = 0;
@@ -127,22 +139,21 @@ class HarnessTerms {
       branches_[b]->unknowns.evaluate(own(x, *branches_[b]), curve);
       result.branches[b].points.points = curve.points;
     }
+    result.take_directions();
     return result;
   }
   double unit() const { return unit_; }
 
  private:
   Eigen::VectorXd own(const Eigen::VectorXd& x, const BranchTerms& branch) const { return x.segment(branch.first, branch.unknowns.size()); }
-  /// Where the direction of a junction's branch begins in the unknowns; the first two share one.
-  int direction(int junction, std::size_t k) const { return junctions_[junction] + 3 * std::max(1, static_cast<int>(k)); }
-
   void add_end(const HarnessEnd& end, int branch, const Vec3& by_place, const Vec3& by_leaving, const Eigen::VectorXd& x,
                Eigen::VectorXd& gradient) const {
     if (!end.junction) return;
     const ShapeJunction& junction = shape_.junctions[end.number];
     const std::size_t k = std::find(junction.branches.begin(), junction.branches.end(), branch) - junction.branches.begin();
     gradient.segment<3>(junctions_[end.number]) += by_place;
-    const int at = direction(end.number, k);
+    if (k > 1) return;
+    const int at = junctions_[end.number] + 3;
     const Vec3 along = junction.leaving[k], by = by_leaving - along.dot(by_leaving) * along;
     gradient.segment<3>(at) += (k == 1 ? -1 : 1) / x.segment<3>(at).norm() * by;
   }
@@ -165,8 +176,8 @@ HarnessShape descend_together(const FreeSpace& space, const HarnessOptions& opti
   bfgs.largest_step = terms.unit();
   for (const double weight : {first_weight, second_weight}) {
     terms.weigh(weight);
-    bfgs.gradient = weight == first_weight ? 1e-2 : 1e-3;
-    bfgs.decrease = weight == first_weight ? 1e-4 : 1e-6;
+    bfgs.gradient = weight == first_weight ? 1e-2 : 1e-4;
+    bfgs.decrease = weight == first_weight ? 1e-5 : 1e-8;
     for (int round = 0; round < 3 && !context.stop(); ++round) {
       if (round > 0 && terms.planned(x)) break;
       terms.plan(x);

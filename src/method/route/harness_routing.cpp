@@ -15,6 +15,8 @@ namespace tendril::routing {
 
 namespace {
 
+// rad: directions that branches may take at junctions before those are settled, about those of their paths.
+constexpr double free_cone = 1.2;
 // The smallest gap of a route is looked for up to here, m.
 constexpr double farthest_clearance = 0.5;
 
@@ -147,11 +149,23 @@ class HarnessRouting {
   }
 
   void smooth_branches() {
-    missed_ = smooth(*r_.space, options_, shape_, context_);
+    // Directions at junctions are free at first: the trunk follows from what the branches make of that.
+    missed_ = smooth(*r_.space, options_, shape_, shape_.junctions.empty() ? 0 : free_cone, context_);
+    shape_.choose_trunks();
     steps_.end("smoothing", {{"branches", long(shape_.branches.size())}, {"infeasible", infeasible()}});
   }
   void improve_junctions() {
-    if (options_.improve) improve(*r_.space, options_, shape_, missed_, context_);
+    if (shape_.junctions.empty()) return;
+    HarnessShape moved = shape_;
+    if (options_.improve) {
+      missed_ = improve(*r_.space, options_, moved, context_);
+      if (context_.stop()) return;
+    }
+    if (!options_.improve || infeasible()) {
+      const ShapeViolations missed = smooth(*r_.space, options_, shape_, 0, context_);
+      if (!options_.improve || misses(missed) < misses(missed_)) moved = shape_, missed_ = missed;
+    }
+    shape_ = std::move(moved);
     steps_.end("improvement", {{"junctions", long(shape_.junctions.size())}, {"infeasible", infeasible()}});
   }
   long infeasible() const {

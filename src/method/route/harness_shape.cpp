@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "base/units.h"
+
 namespace tendril::routing {
 
 namespace {
@@ -51,28 +53,17 @@ void contract(HarnessShape& shape, int gone) {
       if (end->junction && end->number > to) --end->number;
 }
 
-/// The two branches that continue each other best, first; and all directions.
-void choose_trunk(HarnessShape& shape, int junction, double reach) {
+/// The branches that meet at a junction and where their paths lead.
+void find_branches(HarnessShape& shape, int junction, double reach) {
   ShapeJunction& j = shape.junctions[junction];
   for (std::size_t b = 0; b < shape.branches.size(); ++b) {
-    const ShapeBranch& branch = shape.branches[b];
-    if (!is_at(branch.from, junction) && !is_at(branch.to, junction)) continue;
+    std::vector<Vec3> path = shape.branches[b].path;
+    if (is_at(shape.branches[b].to, junction)) std::reverse(path.begin(), path.end());
+    else if (!is_at(shape.branches[b].from, junction)) continue;
     j.branches.push_back(static_cast<int>(b));
-    std::vector<Vec3> path = branch.path;
-    if (is_at(branch.to, junction)) std::reverse(path.begin(), path.end());
     j.leaving.push_back(heading(path, reach));
+    j.at = path.front();
   }
-  std::size_t one = 0, two = 1;
-  for (std::size_t a = 0; a < j.leaving.size(); ++a)
-    for (std::size_t b = a + 1; b < j.leaving.size(); ++b)
-      if (j.leaving[a].dot(j.leaving[b]) < j.leaving[one].dot(j.leaving[two]) - 1e-9) one = a, two = b;
-  for (const auto& [to, from] : {std::array{std::size_t(0), one}, std::array{std::size_t(1), two}}) {
-    std::swap(j.branches[to], j.branches[from]);
-    std::swap(j.leaving[to], j.leaving[from]);
-  }
-  const Vec3 through = j.leaving[0] - j.leaving[1];
-  if (through.norm() > 1e-6) j.leaving[0] = through.normalized();
-  j.leaving[1] = -j.leaving[0];
 }
 
 }  // namespace
@@ -94,6 +85,50 @@ double HarnessShape::cost() const {
   return sum;
 }
 
+EndCones HarnessShape::cones(int branch, double cone) const {
+  return {branches[branch].from.junction ? cone : 0, branches[branch].to.junction ? cone : 0};
+}
+
+EndCones HarnessShape::cones(int branch) const {
+  const auto of = [&](const HarnessEnd& end) {
+    if (!end.junction) return 0.0;
+    const std::vector<int>& meeting = junctions[end.number].branches;
+    return meeting[0] == branch || meeting[1] == branch ? 0.0 : units::pi;
+  };
+  return {of(branches[branch].from), of(branches[branch].to)};
+}
+
+void HarnessShape::take_directions() {
+  for (std::size_t number = 0; number < junctions.size(); ++number) {
+    ShapeJunction& j = junctions[number];
+    for (std::size_t k = 2; k < j.branches.size(); ++k) j.leaving[k] = out_of(j.branches[k], static_cast<int>(number));
+  }
+}
+
+Vec3 HarnessShape::out_of(int number, int junction) const {
+  const ShapeBranch& branch = branches[number];
+  const std::vector<Vec3> along = edge_directions(branch.points.points);
+  return is_at(branch.from, junction) ? along.front() : Vec3(-along.back());
+}
+
+void HarnessShape::choose_trunks() {
+  for (std::size_t number = 0; number < junctions.size(); ++number) {
+    ShapeJunction& j = junctions[number];
+    for (std::size_t k = 0; k < j.branches.size(); ++k) j.leaving[k] = out_of(j.branches[k], static_cast<int>(number));
+    std::size_t one = 0, two = 1;
+    for (std::size_t a = 0; a < j.leaving.size(); ++a)
+      for (std::size_t b = a + 1; b < j.leaving.size(); ++b)
+        if (j.leaving[a].dot(j.leaving[b]) < j.leaving[one].dot(j.leaving[two]) - 1e-9) one = a, two = b;
+    for (const auto& [to, from] : {std::array{std::size_t(0), one}, std::array{std::size_t(1), two}}) {
+      std::swap(j.branches[to], j.branches[from]);
+      std::swap(j.leaving[to], j.leaving[from]);
+    }
+    const Vec3 through = j.leaving[0] - j.leaving[1];
+    if (through.norm() > 1e-6) j.leaving[0] = through.normalized();
+    j.leaving[1] = -j.leaving[0];
+  }
+}
+
 HarnessShape shape_of(const Roadmap& roadmap, const HarnessTree& tree, const HarnessOptions& options, const std::vector<Vec3>& tips,
                       double least) {
   HarnessShape shape;
@@ -113,17 +148,12 @@ HarnessShape shape_of(const Roadmap& roadmap, const HarnessTree& tree, const Har
     if (branch.from.junction && branch.to.junction && length_of(branch.path) < least) contract(shape, static_cast<int>(b)), b = 0;
     else ++b;
   }
-  for (std::size_t j = 0; j < shape.junctions.size(); ++j) {
-    for (const ShapeBranch& branch : shape.branches) {
-      if (is_at(branch.from, static_cast<int>(j))) shape.junctions[j].at = branch.path.front();
-      else if (is_at(branch.to, static_cast<int>(j))) shape.junctions[j].at = branch.path.back();
-    }
-    choose_trunk(shape, static_cast<int>(j), 2 * options.min_bend_radius + options.end_straight);
-  }
+  for (std::size_t j = 0; j < shape.junctions.size(); ++j)
+    find_branches(shape, static_cast<int>(j), 2 * options.min_bend_radius + options.end_straight);
   return shape;
 }
 
-PccDemands demands_of(const HarnessOptions& options, const ShapeBranch& branch) {
+PccDemands demands_of(const HarnessOptions& options, const ShapeBranch& branch, const EndCones& cones) {
   PccDemands demands;
   demands.radii = {options.min_bend_radius};
   demands.min_straight = options.min_straight;
@@ -131,6 +161,8 @@ PccDemands demands_of(const HarnessOptions& options, const ShapeBranch& branch) 
   demands.free_ends = options.free_ends;
   demands.free_start = !branch.from.junction;
   demands.free_finish = !branch.to.junction;
+  demands.start_cone = cones.from;
+  demands.finish_cone = cones.to;
   return demands;
 }
 

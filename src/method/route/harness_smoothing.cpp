@@ -13,11 +13,11 @@ namespace {
 using preform::Candidate;
 using preform::Optimized;
 
-preform::Options options_of(const HarnessOptions& options, const HarnessShape& shape, int branch) {
+preform::Options options_of(const HarnessOptions& options, const HarnessShape& shape, int branch, const EndCones& cones) {
   preform::Options one;
   one.ends = shape.ends(branch, options.connections);
   one.space = options.space;
-  one.curve = demands_of(options, shape.branches[branch]);
+  one.curve = demands_of(options, shape.branches[branch], cones);
   one.max_bends = options.max_bends;
   one.grid = options.grid;
   return one;
@@ -43,21 +43,25 @@ std::vector<Optimized> smoothed(const FreeSpace& space, const preform::Options& 
   return best;
 }
 
+/// What penalties leave is made up for by multipliers.
+Optimized held(const FreeSpace& space, const preform::Options& one, const PccPoints& curve, const RunContext& context) {
+  const double reach = std::max(space.demands().radius + space.demands().clearance, 1e-3 * one.curve.radii.front());
+  DescentOptions descent;
+  descent.polish = true;
+  descent.sample = std::min(0.1 * reach, 0.1 * one.curve.radii.front());
+  descent.margin = 2 * descent.sample * descent.sample / reach;
+  const DescentResult result = descend(space, one.curve, one.ends, curve, descent, context);
+  return {result.curve, result.length, result.objective, -1, routing::violations(space, one.curve, one.ends, result.curve)};
+}
+
+}  // namespace
+
 double misses(const ShapeViolations& violations) {
   double sum = 0;
   for (const std::vector<Violation>& of_branch : violations)
     if (!of_branch.empty()) sum += 1 + std::min(1.0, of_branch.front().by);
   return sum;
 }
-
-double objective(const FreeSpace& space, const HarnessShape& shape) {
-  double sum = shape.cost();
-  if (!space.has_preferences()) return sum;
-  for (const ShapeBranch& branch : shape.branches) sum += branch.factor * preference_along(space, branch.points);
-  return sum;
-}
-
-}  // namespace
 
 double preference_along(const FreeSpace& space, const PccPoints& curve) {
   if (!space.has_preferences()) return 0;
@@ -70,42 +74,48 @@ double preference_along(const FreeSpace& space, const PccPoints& curve) {
   return sum;
 }
 
-ShapeViolations smooth(const FreeSpace& space, const HarnessOptions& options, HarnessShape& shape, const RunContext& context) {
+ShapeViolations smooth(const FreeSpace& space, const HarnessOptions& options, HarnessShape& shape, double cone, const RunContext& context) {
   ShapeViolations violations(shape.branches.size());
   for (std::size_t b = 0; b < shape.branches.size(); ++b) {
     ShapeBranch& branch = shape.branches[b];
-    const preform::Options one = options_of(options, shape, static_cast<int>(b));
+    const preform::Options one = options_of(options, shape, static_cast<int>(b),
+                                            cone > 0 ? shape.cones(static_cast<int>(b), cone) : shape.cones(static_cast<int>(b)));
     branch.points = {{one.ends.start, one.ends.finish}, {}};
-    const std::vector<Optimized> best = smoothed(space, one, branch.path, context);
+    std::vector<Optimized> best = smoothed(space, one, branch.path, context);
+    if (best.empty() || !best.front().violations.empty()) {
+      // The tree knows nothing of bends: through another passage there may be room for them.
+      std::vector<Optimized> others = pcc_optimization(space, one, pcc_sampling(space, one, global_search(space, one, context), context), context);
+      best.insert(best.end(), others.begin(), others.end());
+      best = best_of(std::move(best));
+      polish(space, one, best, context);
+    }
     if (!best.empty()) branch.points = best.front().points;
     violations[b] = best.empty() ? routing::violations(space, one.curve, one.ends, branch.points) : best.front().violations;
   }
+  shape.take_directions();
   return violations;
 }
 
-void improve(const FreeSpace& space, const HarnessOptions& options, HarnessShape& shape, ShapeViolations& violations,
-             const RunContext& context) {
-  if (shape.junctions.empty()) return;
-  HarnessShape moved = descend_together(space, options, shape, context);
-  ShapeViolations missed(moved.branches.size());
-  for (std::size_t b = 0; b < moved.branches.size() && !context.stop(); ++b) {
-    ShapeBranch& branch = moved.branches[b];
-    const preform::Options one = options_of(options, moved, static_cast<int>(b));
+ShapeViolations improve(const FreeSpace& space, const HarnessOptions& options, HarnessShape& shape, const RunContext& context) {
+  shape = descend_together(space, options, shape, context);
+  ShapeViolations violations(shape.branches.size());
+  for (std::size_t b = 0; b < shape.branches.size(); ++b) {
+    ShapeBranch& branch = shape.branches[b];
+    const preform::Options one = options_of(options, shape, static_cast<int>(b), shape.cones(static_cast<int>(b)));
     std::vector<Optimized> best = pcc_optimization(space, one, {{branch.points, -1}}, context);
-    if (best.empty()) return;
     polish(space, one, best, context);
-    if (!best.front().violations.empty()) {
-      const std::vector<Optimized> other = smoothed(space, one, branch.points.points, context);
-      if (!other.empty() && is_better(other.front(), best.front())) best = other;
+    if (best.empty() || !best.front().violations.empty()) {
+      std::vector<Optimized> other = smoothed(space, one, branch.points.points, context);
+      for (const PccPoints& curve : {branch.points, best.empty() ? branch.points : best.front().points})
+        other.push_back(held(space, one, curve, context));
+      best.insert(best.end(), other.begin(), other.end());
+      best = best_of(std::move(best));
     }
-    branch.points = best.front().points;
-    missed[b] = best.front().violations;
+    if (!best.empty()) branch.points = best.front().points;
+    violations[b] = best.empty() ? routing::violations(space, one.curve, one.ends, branch.points) : best.front().violations;
   }
-  if (context.stop()) return;
-  const double before = misses(violations), after = misses(missed);
-  if (after > before || (after == before && !(objective(space, moved) < objective(space, shape)))) return;
-  shape = std::move(moved);
-  violations = std::move(missed);
+  shape.take_directions();
+  return violations;
 }
 
 }  // namespace tendril::routing

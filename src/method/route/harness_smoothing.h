@@ -9,12 +9,16 @@ namespace tendril::routing {
 /// By branch what it violates, worst first.
 using ShapeViolations = std::vector<std::vector<Violation>>;
 
-/// Fills the branches' curves, each to the local optimum between its ends as they are.
-ShapeViolations smooth(const FreeSpace& space, const HarnessOptions& options, HarnessShape& shape, const RunContext& context = {});
+/// Fills the branches' curves, each to the local optimum between its ends as they are, where its direction at a junction may turn
+/// by `cone` (rad). 0: trunks are chosen and keep their directions.
+ShapeViolations smooth(const FreeSpace& space, const HarnessOptions& options, HarnessShape& shape, double cone,
+                       const RunContext& context = {});
 
-/// Moves junctions and branches together, then each branch again; the shape stays as it was where that is no better.
-void improve(const FreeSpace& space, const HarnessOptions& options, HarnessShape& shape, ShapeViolations& violations,
-             const RunContext& context = {});
+/// Moves junctions and branches together from the curves there are, then each branch again between ends that stay.
+ShapeViolations improve(const FreeSpace& space, const HarnessOptions& options, HarnessShape& shape, const RunContext& context = {});
+
+/// The number of branches that miss something, and a share for how much.
+double misses(const ShapeViolations& violations);
 
 /// Integral of FreeSpace::cost - 1 along a curve, m.
 double preference_along(const FreeSpace& space, const PccPoints& curve);
