@@ -1,6 +1,7 @@
 #include "method/route/harness_descent.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <memory>
 
@@ -11,8 +12,9 @@ namespace tendril::routing {
 
 namespace {
 
-// Penalty weights times the bend radius, as in descents of single curves.
-constexpr double first_weight = 5, second_weight = 500;
+// Penalty weights times the bend radius. The first is higher than in descents of single curves: these ones are smooth already, and
+// a junction that slips through a wall does not come back.
+constexpr std::array<double, 2> weights = {50, 500};
 constexpr int iterations = 400;
 // What is demanded is held with this much to spare (m, and share of the radius), so that ends which stay leave room to keep it.
 constexpr double margin = 1e-3, slack = 0.01;
@@ -173,11 +175,12 @@ HarnessShape descend_together(const FreeSpace& space, const HarnessOptions& opti
   Eigen::VectorXd x = terms.start();
   BfgsOptions bfgs;
   bfgs.iterations = iterations;
-  bfgs.largest_step = terms.unit();
-  for (const double weight : {first_weight, second_weight}) {
+  bfgs.largest_step = 0.2 * terms.unit();
+  for (const double weight : weights) {
     terms.weigh(weight);
-    bfgs.gradient = weight == first_weight ? 1e-2 : 1e-4;
-    bfgs.decrease = weight == first_weight ? 1e-5 : 1e-8;
+    const bool last = weight == weights.back();
+    bfgs.gradient = last ? 1e-4 : 1e-2;
+    bfgs.decrease = last ? 1e-8 : 1e-5;
     for (int round = 0; round < 3 && !context.stop(); ++round) {
       if (round > 0 && terms.planned(x)) break;
       terms.plan(x);

@@ -17,6 +17,7 @@ namespace {
 
 // rad: directions that branches may take at junctions before those are settled, about those of their paths.
 constexpr double free_cone = 1.2;
+constexpr int most_rounds = 6;
 // The smallest gap of a route is looked for up to here, m.
 constexpr double farthest_clearance = 0.5;
 
@@ -156,17 +157,31 @@ class HarnessRouting {
   }
   void improve_junctions() {
     if (shape_.junctions.empty()) return;
-    HarnessShape moved = shape_;
-    if (options_.improve) {
-      missed_ = improve(*r_.space, options_, moved, context_);
-      if (context_.stop()) return;
-    }
+    const HarnessShape on_grid = shape_;
+    missed_.assign(shape_.branches.size(), {Violation{}});  // without directions in common at junctions it is no route yet
+    if (options_.improve) move_together(on_grid);
     if (!options_.improve || infeasible()) {
-      const ShapeViolations missed = smooth(*r_.space, options_, shape_, 0, context_);
-      if (!options_.improve || misses(missed) < misses(missed_)) moved = shape_, missed_ = missed;
+      HarnessShape still = on_grid;
+      offer(still, smooth(*r_.space, options_, still, 0, context_));
+      if (options_.improve && !context_.stop()) move_together(still);
     }
-    shape_ = std::move(moved);
     steps_.end("improvement", {{"junctions", long(shape_.junctions.size())}, {"infeasible", infeasible()}});
+  }
+  /// Each time from what came out before: a descent stops at kinks of the distance, from which another one gets away.
+  void move_together(HarnessShape shape) {
+    for (int round = 0; round < most_rounds && !context_.stop(); ++round) {
+      const ShapeViolations missed = improve(*r_.space, options_, shape, context_);
+      if (!offer(shape, missed) && misses(missed) == 0) return;
+    }
+  }
+  /// Takes a shape that is better than what there is.
+  bool offer(const HarnessShape& shape, const ShapeViolations& missed) {
+    const double before = misses(missed_), after = misses(missed);
+    const double least = 1e-4 * shape.cost();
+    if (after > before || (after == before && weighted_cost(*r_.space, shape) > weighted_cost(*r_.space, shape_) - least)) return false;
+    shape_ = shape;
+    missed_ = missed;
+    return true;
   }
   long infeasible() const {
     return std::count_if(missed_.begin(), missed_.end(), [](const auto& of_branch) { return !of_branch.empty(); });

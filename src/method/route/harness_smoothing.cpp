@@ -63,6 +63,12 @@ double misses(const ShapeViolations& violations) {
   return sum;
 }
 
+double weighted_cost(const FreeSpace& space, const HarnessShape& shape) {
+  double sum = shape.cost();
+  for (const ShapeBranch& branch : shape.branches) sum += branch.factor * preference_along(space, branch.points);
+  return sum;
+}
+
 double preference_along(const FreeSpace& space, const PccPoints& curve) {
   if (!space.has_preferences()) return 0;
   constexpr double spacing = 2e-3;

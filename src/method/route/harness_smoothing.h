@@ -20,6 +20,9 @@ ShapeViolations improve(const FreeSpace& space, const HarnessOptions& options, H
 /// The number of branches that miss something, and a share for how much.
 double misses(const ShapeViolations& violations);
 
+/// m: by branches' factors, with preferences.
+double weighted_cost(const FreeSpace& space, const HarnessShape& shape);
+
 /// Integral of FreeSpace::cost - 1 along a curve, m.
 double preference_along(const FreeSpace& space, const PccPoints& curve);
 

@@ -15,6 +15,7 @@ PlaceGraph::PlaceGraph(const Roadmap& roadmap, const std::vector<int>& from, con
   for (const int node : from)
     if (roadmap.is_free(node)) number(node);
   first_.reserve(roadmap.free_nodes() + 1);
+  edges_.reserve(Roadmap::neighbours().size() * roadmap.free_nodes());
   float cheapest = Roadmap::unreachable;
   for (int place = 0; place < size(); ++place) {  // grows on the way: breadth first
     if (place % 1024 == 0 && context.stop()) break;
