@@ -9,6 +9,9 @@ namespace tendril::routing {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
+// Gaps are looked for so much farther than they matter, in the smallest bend radius: samples need not be asked again until
+// they have moved by what was found to be spare.
+constexpr double spare = 0.05;
 
 }  // namespace
 
@@ -30,6 +33,7 @@ void PccTerms::plan(const Eigen::VectorXd& x, double spacing) {
   if (sampled_) samples_.plan(shape_, unknowns_.radii(), spacing, demands_.start_free(), demands_.finish_free(), space_.has_preferences());
   multipliers_.resize(fixed_ + samples_.size());
   slacks_.resize(fixed_ + samples_.size());
+  known_.assign(samples_.size(), {Vec3::Zero(), -infinity});
   std::fill(multipliers_.begin() + fixed_, multipliers_.end(), 0.0);
   std::fill(slacks_.begin() + fixed_, slacks_.end(), infinity);
 }
@@ -69,6 +73,19 @@ void PccTerms::add_demands(double& sum) {
   unknowns_.add_finish_turn(shape_, -unit_ * penalty(term++, finish, sum), adjoint_);
 }
 
+/// Obstacle -1 where it is not below the limit.
+Gap PccTerms::gap_of(int sample, double limit) {
+  const Vec3& place = samples_.place(sample);
+  Known& known = known_[sample];
+  if (known.low - (place - known.at).norm() >= limit) return {};
+  known = {place, space_.bounds(place).low};
+  if (known.low >= limit) return {};
+  const Gap gap = space_.gap(place, limit + spare * unit_);
+  ++queries_;
+  known.low = gap.value;
+  return gap.value < limit ? gap : Gap{};
+}
+
 double PccTerms::add_samples(double& sum) {
   const std::vector<double>& radii = unknowns_.radii();
   const bool prefers = space_.has_preferences();
@@ -79,9 +96,8 @@ double PccTerms::add_samples(double& sum) {
     double by_length = 0;
     const double limit = margin_ + multipliers_[fixed_ + i] / (2 * weight);
     slacks_[fixed_ + i] = infinity;
-    if (samples_.asked(i) && space_.bounds(samples_.place(i)).low < limit) {
-      const Gap gap = space_.gap(samples_.place(i), limit);
-      ++queries_;
+    if (samples_.asked(i)) {
+      const Gap gap = gap_of(i, limit);
       if (gap.obstacle >= 0) by = penalty(fixed_ + i, gap.value - margin_, sum) * gap.gradient;
     }
     if (prefers) {

@@ -45,6 +45,7 @@ class PccTerms {
   double mismatch(int from, int to) const;
   void add_demands(double& sum);
   double add_samples(double& sum);
+  Gap gap_of(int sample, double limit);
 
   const FreeSpace& space_;
   const PccDemands& demands_;
@@ -56,6 +57,12 @@ class PccTerms {
   PccSamples samples_;
   bool sampled_;
   int fixed_ = 0;  ///< number of terms before those of the samples
+  /// A sample was here, and the gap there was at least so large: what it moves by is all that it can have lost since.
+  struct Known {
+    Vec3 at;
+    double low;  ///< m
+  };
+  std::vector<Known> known_;
   std::vector<double> multipliers_, slacks_;
   int queries_ = 0;
 };
