@@ -33,6 +33,7 @@ Schema preform_schema() {
              option<double>("grid", "m", "Step of the search for passages").above(0).preset(20 * units::mm),
              option<double>("exclusion", "m", "Paths of the search keep this far from earlier ones").above(0).preset(60 * units::mm),
              option<int>("max_paths", "", "Paths of the search, at most").at_least(1).at_most(1000).preset(30),
+             option<double>("max_detour", "", "Paths of the search cost at most so many times what the cheapest one costs").at_least(1).preset(6.0),
              option<double>("same", "m", "Hoses nearer than this all along count as one").above(0).preset(25 * units::mm),
          } +
          method_schema();
@@ -53,6 +54,7 @@ preform::Options preform_options(const Options& o) {
   options.exclusion = o.get<double>("exclusion");
   options.exclusion_ends = 2 * options.exclusion;
   options.max_paths = o.get<int>("max_paths");
+  options.max_detour = o.get<double>("max_detour");
   options.same = o.get<double>("same");
   return options;
 }

@@ -1,6 +1,7 @@
 #include "method/preform/global_search.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "method/free_space/bottleneck.h"
 #include "method/preform/end_lead.h"
@@ -43,16 +44,19 @@ GlobalPaths global_search(const FreeSpace& space, const Options& options, const 
   found.free_nodes = roadmap.free_nodes();
   if (context.stop()) return found;
   PathSearch search(space, roadmap, start.tip, finish.tip);
-  double kept = options.exclusion_ends;
+  double kept = options.exclusion_ends, most = std::numeric_limits<double>::infinity();
   while (static_cast<int>(found.paths.size()) < options.max_paths && !context.stop()) {
-    const PathSearch::Path path = search.shortest(context);
+    const PathSearch::Path path = search.shortest(most, context);
     if (path.places.empty()) break;
     std::vector<Vec3> whole{ends.start};
     if (start.length > 0) whole.push_back(start.tip);
     whole.insert(whole.end(), path.places.begin() + 1, path.places.end() - 1);
     if (finish.length > 0) whole.push_back(finish.tip);
     whole.push_back(ends.finish);
-    if (found.paths.empty()) kept = std::min(kept, largest_kept_share * length_of(path.places));
+    if (found.paths.empty()) {
+      kept = std::min(kept, largest_kept_share * length_of(path.places));
+      most = options.max_detour * path.cost;
+    }
     found.paths.push_back(std::move(whole));
     const KeptEnd first(ends.start, start, kept), last(ends.finish, finish, kept);
     // A path that loses none of its own nodes would be found again.

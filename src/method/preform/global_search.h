@@ -1,7 +1,7 @@
 // Step 1 (thesis 3.2): a set of collision-free polylines through different regions of free space.
 //
 // Roadmap on a uniform grid with 26 neighbours. Repeatedly the shortest path; all nodes near it are then excluded, but not near
-// the two ends, until no path is left.
+// the two ends, until no path is left that costs at most max_detour times the first one.
 #pragma once
 
 #include <string>

@@ -26,6 +26,9 @@ struct Options {
   double exclusion = 60e-3;       ///< m, around each path that was found
   double exclusion_ends = 120e-3; ///< m, around the ends, where nothing is excluded
   int max_paths = 30;
+  /// Paths that cost more than so many times the cheapest one are left; at least 1. Far more than a hose may be longer: paths go
+  /// around what was excluded before, and hoses pull themselves tight from there.
+  double max_detour = 6;
   double same = 25e-3;            ///< m: curves nearer than this all along are the same
 };
 

@@ -46,11 +46,12 @@ std::vector<PathSearch::Goal> PathSearch::joined(const Vec3& end) const {
 }
 
 void PathSearch::reach(int node, float cost, int from) {
-  if (to_finish_[node] == Roadmap::unreachable) return;
+  const float whole = cost + (1 + even) * to_finish_[node];
+  if (!(whole <= most_)) return;
   if (behind_[node] == Roadmap::unreachable) touched_.push_back(node);
   behind_[node] = cost;
   before_[node] = from;
-  waiting_.push_back({cost + (1 + even) * to_finish_[node], cost, node});
+  waiting_.push_back({whole, cost, node});
   std::push_heap(waiting_.begin(), waiting_.end());
 }
 
@@ -73,7 +74,9 @@ PathSearch::Path PathSearch::path_to(int node, float cost) const {
   return path;
 }
 
-PathSearch::Path PathSearch::shortest(const RunContext& context) {
+PathSearch::Path PathSearch::shortest(double most, const RunContext& context) {
+  // What is out of reach has infinite costs.
+  most_ = static_cast<float>(std::min((1 + 2 * even) * most, double(std::numeric_limits<float>::max())));
   for (const Goal& goal : starts_)
     if (!excluded_[goal.node] && goal.cost < behind_[goal.node]) reach(goal.node, static_cast<float>(goal.cost), -1);
   float best = Roadmap::unreachable;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "base/run_context.h"
@@ -27,8 +28,8 @@ class PathSearch {
     std::vector<int> nodes;
     double cost = 0;
   };
-  /// The cheapest path without excluded nodes. Stopped by `context`: none.
-  Path shortest(const RunContext& context = {});
+  /// The cheapest path without excluded nodes, if it costs no more than `most` (m). Stopped by `context`: none.
+  Path shortest(double most = std::numeric_limits<double>::infinity(), const RunContext& context = {});
 
   /// Takes away the nodes within `radius` (m) of a path's, but for those that `is_kept` holds for. Returns how many nodes of the
   /// path itself are among them.
@@ -36,7 +37,8 @@ class PathSearch {
   int exclude_around(const Path& path, double radius, const IsKept& is_kept);
 
  private:
-  using Goal = routing::Roadmap::Goal;
+  using Roadmap = routing::Roadmap;
+  using Goal = Roadmap::Goal;
   std::vector<Goal> joined(const Vec3& end) const;
   void reach(int node, float cost, int from);
   void expand(int node);
@@ -56,6 +58,7 @@ class PathSearch {
     int node;
     bool operator<(const Waiting& other) const { return whole > other.whole || (whole == other.whole && node > other.node); }
   };
+  float most_ = Roadmap::unreachable;  ///< m: nodes on no cheaper path are not gone to
   std::vector<float> behind_;
   std::vector<int> before_, touched_;
   std::vector<Waiting> waiting_;  ///< a heap

@@ -49,6 +49,7 @@ void check(const Options& options) {
   check_curve(options);
   require(options.max_bends >= 0 && options.max_bends <= 30, "the most bends are " + std::to_string(options.max_bends) + "; 0 to 30 expected");
   require(std::isfinite(options.grid) && options.grid > 0, "the grid's step is " + number_text(options.grid) + " m; above 0 expected");
+  require(options.max_detour >= 1, "the longest detour is " + number_text(options.max_detour) + " times the cheapest path; at least 1 expected");
   require(options.max_paths >= 1, "the most paths are " + std::to_string(options.max_paths) + "; at least 1 expected");
 }
 

@@ -131,6 +131,31 @@ TEST_CASE("both windows of a wall are found, and the ways around it", "[global_s
   CHECK(ways.size() == 6);
 }
 
+TEST_CASE("longer detours than allowed are left, the others are what they would be", "[global_search]") {
+  Scene scene;
+  add_wall_with_windows(scene);
+  Options options = options_between({-0.3, 0, 0}, {1, 0, 0}, {0.3, 0.1, 0}, {1, 0, 0});
+  options.max_detour = INFINITY;
+  const std::vector<std::vector<Vec3>> all = search(scene, options).paths;
+  // A path's cost is its length without the two straights at the ends, of 70 mm.
+  const auto detour = [&](const std::vector<Vec3>& path) { return (length_of(path) - 0.14) / (length_of(all[0]) - 0.14); };
+  REQUIRE(detour(all.back()) > 1.8);
+  std::size_t before = 0;
+  for (const double most : {1.0, 1.2, 1.5, 1.8}) {
+    CAPTURE(most);
+    options.max_detour = most;
+    const std::vector<std::vector<Vec3>> some = search(scene, options).paths;
+    REQUIRE(some.size() < all.size());
+    CHECK(some.size() >= std::max<std::size_t>(before, 1));
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (i < some.size()) CHECK(some[i] == all[i]);
+      CHECK((i < some.size()) == (detour(all[i]) <= most * (1 + 1e-6)));
+    }
+    before = some.size();
+  }
+  CHECK(before > 1);
+}
+
 TEST_CASE("every gap of a row of posts is found", "[global_search]") {
   for (const int posts : {1, 3, 6}) {
     CAPTURE(posts);
