@@ -1138,6 +1138,7 @@ method = {}
 ---@field grid? number Step of the search for passages (m; > 0; default 0.02)
 ---@field exclusion? number Paths of the search keep this far from earlier ones (m; > 0; default 0.06)
 ---@field max_paths? integer Paths of the search, at most (1 ... 1000; default 30)
+---@field max_detour? number Paths of the search cost at most so many times what the cheapest one costs (>= 1; default 6)
 ---@field same? number Hoses nearer than this all along count as one (m; > 0; default 0.025)
 ---@field seed? integer Of all random numbers: the same seed gives the same bits (>= 0; default 1)
 ---@field threads? integer At most; default: all that the machine has (1 ... 4096)
