@@ -12,6 +12,8 @@ namespace {
 
 /// Of paths that cost the same but for so much the search follows the one that is nearest to the finish.
 constexpr float even = 1e-5f;
+// A search that has expanded so many nodes asks whether the finish has fewer around it, from which nothing leads out.
+constexpr std::size_t enclosed_nodes = 4096;
 
 /// Mean of both ends, as between nodes.
 double cost_of_straight(const FreeSpace& space, const Vec3& a, const Vec3& b) {
@@ -63,6 +65,24 @@ void PathSearch::expand(int node) {
   });
 }
 
+/// By what is excluded, in a space of few nodes without a start: to search all the rest for it would be in vain.
+bool PathSearch::finish_is_enclosed() const {
+  std::vector<int> around;
+  std::vector<char> seen(excluded_);
+  const auto see = [&](int node) {
+    if (!seen[node]) around.push_back(node);
+    seen[node] = 1;
+  };
+  for (const Goal& goal : finishes_) see(goal.node);
+  for (std::size_t i = 0; i < around.size(); ++i) {
+    if (around.size() > enclosed_nodes || behind_[around[i]] < Roadmap::unreachable) return false;
+    roadmap_.visit_free_neighbours(around[i], [&](int other, float) {
+      if (!seen[other] && roadmap_.passes(other, around[i])) see(other);
+    });
+  }
+  return true;
+}
+
 PathSearch::Path PathSearch::path_to(int node, float cost) const {
   Path path;
   path.cost = cost;
@@ -94,6 +114,7 @@ PathSearch::Path PathSearch::shortest(double most, const RunContext& context) {
       last = next.node;
     }
     expanded.push_back(next.node);
+    if (expanded.size() == enclosed_nodes && last < 0 && finish_is_enclosed()) break;
     expand(next.node);
   }
   const Path path = last < 0 || stopped ? Path{} : path_to(last, best);

@@ -42,6 +42,7 @@ class PathSearch {
   std::vector<Goal> joined(const Vec3& end) const;
   void reach(int node, float cost, int from);
   void expand(int node);
+  bool finish_is_enclosed() const;
   Path path_to(int node, float cost) const;
 
   const routing::FreeSpace& space_;
