@@ -29,6 +29,8 @@ class Roadmap {
   bool holds(const std::array<int, 3>& cell) const;         ///< within the grid
   std::array<int, 3> nearest(const Vec3& p) const;          ///< a cell within the grid
   bool is_free(int node) const { return free_[node]; }
+  /// Per metre, by FreeSpace::cost; where the node is not free the most that it can be.
+  float cost(int node) const { return costs_.empty() ? 1.0f : costs_[node]; }
 
   /// A way on from a node: its neighbour and the distance there in steps.
   struct Neighbour {
