@@ -1,0 +1,100 @@
+#include "method/route/nominal_routing.h"
+
+#include <algorithm>
+
+#include "base/number_text.h"
+#include "base/units.h"
+#include "method/preform/global_search.h"
+#include "method/preform/pcc_optimization.h"
+#include "method/preform/pcc_sampling.h"
+
+namespace tendril::routing {
+
+namespace {
+
+using preform::Candidate;
+using preform::GlobalPaths;
+using preform::Optimized;
+
+/// What the steps of preformed routing are told, which smooth and repair here as there.
+preform::Options smoothing_options(const FreeSpace& space, const Roadmap& roadmap, const NominalOptions& options) {
+  preform::Options smoothing;
+  smoothing.ends = options.ends;
+  smoothing.space = space.demands();
+  smoothing.curve = options.curve;
+  smoothing.max_bends = options.max_bends;
+  smoothing.grid = roadmap.step();
+  smoothing.max_paths = 6;
+  return smoothing;
+}
+
+/// The cheapest feasible curve that the paths lead to; false where there is none.
+bool smooth(const FreeSpace& space, const preform::Options& options, const GlobalPaths& paths, NominalRoute& route,
+            const RunContext& context) {
+  const std::vector<Candidate> candidates = preform::pcc_sampling(space, options, paths, context);
+  std::vector<Optimized> curves = preform::pcc_optimization(space, options, candidates, context);
+  route.candidates += static_cast<int>(candidates.size());
+  std::erase_if(curves, [](const Optimized& c) { return !c.violations.empty(); });
+  if (curves.empty()) return false;
+  const auto best = std::min_element(curves.begin(), curves.end(), [](const auto& a, const auto& b) { return a.objective < b.objective; });
+  std::vector<Optimized> winner{*best};
+  preform::polish(space, options, winner, context);
+  const Optimized& curve = winner.front().violations.empty() ? winner.front() : *best;
+  route.points = curve.points;
+  route.length = curve.length;
+  route.objective = curve.objective;
+  route.status = NominalRoute::Status::found;
+  return true;
+}
+
+/// The chain as it is, where it keeps everything.
+bool keep_chain(const FreeSpace& space, const NominalOptions& options, const LatticePath& path, NominalRoute& route) {
+  PccDemands demands = options.curve;
+  demands.radii = path.chain.radii;  // of the lattice's own arcs, each at least the smallest demanded
+  if (!violations(space, demands, options.ends, path.chain).empty()) return false;
+  route.points = path.chain;
+  route.length = path.chain.length();
+  route.objective = path.cost;
+  route.status = NominalRoute::Status::found;
+  return true;
+}
+
+std::string obstruction_of(const LatticePath& path, const StateLattice& lattice, const GlobalPaths& paths) {
+  if (!paths.obstruction.empty()) return paths.obstruction;
+  const std::string radius = number_text(lattice.radius() / units::mm) + " mm";
+  if (path.outcome == LatticePath::Outcome::capped)
+    return "the search was given up after " + std::to_string(path.states) + " states without a way that bends with " + radius +
+           "; a coarser 'grid' searches farther";
+  if (path.outcome == LatticePath::Outcome::found)
+    return "ways were found, but none that keeps all that is demanded between the grid's places; try a finer 'grid'";
+  return "places are connected, but with a bend radius of " + radius + " the grid's step of " + number_text(lattice.step() / units::mm) +
+         " mm has no way from one end's direction to the other's";
+}
+
+}  // namespace
+
+NominalRoute nominal_routing(const FreeSpace& space, const Roadmap& roadmap, const StateLattice& lattice,
+                             const NominalOptions& options, const RunContext& context) {
+  NominalRoute route;
+  LatticeSearchOptions search = options.search;
+  search.end_straight = options.curve.end_straight;
+  search.free_ends = options.curve.free_ends;
+  const LatticePath path = lattice_search(space, roadmap, lattice, options.ends, search, context);
+  route.states = path.states;
+  const preform::Options smoothing = smoothing_options(space, roadmap, options);
+  if (path.outcome == LatticePath::Outcome::found) {
+    route.lattice_length = path.chain.length();
+    GlobalPaths chain;
+    chain.paths.push_back(path.chain.curve().sampled(0.5 * roadmap.step()));
+    if (smooth(space, smoothing, chain, route, context)) return route;
+  }
+  GlobalPaths paths;
+  if (!context.stop()) paths = preform::global_search(space, smoothing, context);
+  if (!context.stop() && !paths.paths.empty() && smooth(space, smoothing, paths, route, context)) return route;
+  if (path.outcome == LatticePath::Outcome::found && keep_chain(space, options, path, route)) return route;
+  route.status = context.stop() ? NominalRoute::Status::stopped : NominalRoute::Status::infeasible;
+  route.obstruction = obstruction_of(path, lattice, paths);
+  return route;
+}
+
+}  // namespace tendril::routing
