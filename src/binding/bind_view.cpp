@@ -7,6 +7,7 @@
 #include "binding/lua_class.h"
 #include "binding/open.h"
 #include "binding/preform_classes.h"
+#include "binding/route_classes.h"
 #include "binding/saved_file.h"
 #include "binding/scene_classes.h"
 #include "binding/solve_options.h"
@@ -29,9 +30,9 @@ using OneOrMany = std::variant<std::string, std::vector<std::string>>;
 /// Scenes and what was found in them, shared and not copied.
 struct ShownKind {
   static const Kind& kind() {
-    static const Kind kind{"a scene, an equilibrium, hoses or a hose", "scene|equilibrium|preform_result|hose", [](lua_State* L, int index) {
+    static const Kind kind{"a scene, an equilibrium, hoses, a hose or routes", "scene|equilibrium|preform_result|hose|routes", [](lua_State* L, int index) {
       const bool fits = object<Scene>(L, index) || object<SceneEquilibrium>(L, index) || object<PreformHandle>(L, index) ||
-                        object<HoseHandle>(L, index);
+                        object<HoseHandle>(L, index) || object<RoutesHandle>(L, index);
       return fits ? std::string() : describe(L, index);
     }};
     return kind;
@@ -52,7 +53,7 @@ Schema view_options() {
                                         "obstacles are to it, and the rods are plain"),
       option<std::string>("title", "", "On the card"),
   }
-      .with_list(ShownKind::kind(), "what", "The scene, its equilibrium, hoses of method.preform (all, or one to colour it by its clearance)");
+      .with_list(ShownKind::kind(), "what", "The scene, its equilibrium, hoses of method.preform (all, or one to colour it by its clearance), routes of method.route as they are nominally");
 }
 
 Schema save_options() {
@@ -95,7 +96,17 @@ void read_colour(const Options& o, const SceneEquilibrium* shown, PictureWish& w
   throw UsageError("view.new: 'color': unknown " + unknown_name(name, "colours", colour_names()));
 }
 
-/// The entry on top of the stack, when it is a set of hoses or one of them.
+/// The entry on top of the stack, when it is a set of routes.
+bool read_routes(lua_State* L, View& view) {
+  const RoutesHandle* routes = object<RoutesHandle>(L, -1);
+  if (!routes) return false;
+  if (!view.wish.designs.empty()) throw UsageError("view.new: got several sets of designs, expected one");
+  if (routes->result->routes.empty()) throw UsageError("view.new: there are no routes to show: " + routes->result->message);
+  view.wish.designs = designs_of(*routes->result);
+  return true;
+}
+
+/// The same of a set of hoses or one of them.
 bool read_hoses(lua_State* L, View& view) {
   const PreformHandle* set = object<PreformHandle>(L, -1);
   const HoseHandle* hose = object<HoseHandle>(L, -1);
@@ -113,7 +124,7 @@ void read_shown(lua_State* L, const Options& o, View& view) {
   for (lua_Integer i = 1; i <= count; ++i) {
     lua_geti(L, o.index(), i);
     const bool scene = object<Scene>(L, -1) != nullptr;
-    if (!read_hoses(L, view)) {
+    if (!read_hoses(L, view) && !read_routes(L, view)) {
       if (scene ? view.scene != nullptr : view.equilibrium != nullptr)
         throw UsageError(std::string("view.new: got two ") + (scene ? "scenes" : "equilibria") + ", expected at most one of each");
       if (scene) view.scene = Value<std::shared_ptr<Scene>>::read(L, -1);

@@ -113,6 +113,20 @@ std::vector<PictureDesign> designs_of(const preform::Result& result, std::option
   return designs;
 }
 
+std::vector<PictureDesign> designs_of(const route::Result& result) {
+  std::vector<PictureDesign> designs;
+  for (std::size_t i = 0; i < result.routes.size(); ++i) {
+    const route::Route& route = result.routes[i];
+    PictureDesign design;
+    design.name = std::to_string(i + 1);
+    design.radius = result.options.space.radius;
+    design.points = route.nominal.curve().sampled(0.5 * design.radius);
+    design.rows = {{"route " + design.name, quantity(route.nominal_length, "m") + ", clearance weighs " + plain_number(route.weights.clearance / route.weights.length), false}};
+    designs.push_back(std::move(design));
+  }
+  return designs;
+}
+
 ColourScale gap_scale(const preform::Result& result) {
   const std::optional<double> required = common_demand(result.space->surroundings());
   ColourScale scale;

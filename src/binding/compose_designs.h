@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "method/preform/options.h"
+#include "method/route/options.h"
 #include "view/picture.h"
 
 namespace tendril {
@@ -22,6 +23,9 @@ struct PictureDesign {
 
 /// All hoses of a set, each with one row; or one of them (`only`, from 0) coloured by its clearance.
 std::vector<PictureDesign> designs_of(const preform::Result& result, std::optional<int> only);
+
+/// The nominal routes of a set.
+std::vector<PictureDesign> designs_of(const route::Result& result);
 
 /// What the gaps of such designs mean: the clearance, where all obstacles ask for the same, else the margin to what each asks for.
 ColourScale gap_scale(const preform::Result& result);
