@@ -12,11 +12,15 @@ void bind_method(lua_State* L) {
   bind_envelope(L);
   bind_motion(L, builder);
   bind_preform(L);
+  bind_refine(L);
+  bind_route(L);
   bind_steps(L);
   bind_stability(L);
   bind_variation(L, builder);
   Module method(L, "method", "What engineers do with scenes: analyses and searches that take a scene and never change it");
   add_preform_to(method);
+  add_refine_to(method);
+  add_route_to(method);
   add_stability_to(method);
   add_variation_to(method);
 }

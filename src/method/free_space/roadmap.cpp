@@ -56,7 +56,8 @@ Roadmap::Roadmap(const FreeSpace& space, double step, const RunContext& context)
 
 void Roadmap::classify(const RunContext& context) {
   const bool preferences = space_.has_preferences();
-  if (preferences) costs_.assign(free_.size(), 1.0f);
+  const SpaceDemands& asked = space_.demands();
+  if (preferences) costs_.assign(free_.size(), static_cast<float>(1 + asked.clearance_weight + asked.preference));
   const int workers = std::min(thread_count(context.threads), size_[2]);
   const int layer = size_[0] * size_[1];
   std::vector<long> found(workers, 0);

@@ -53,7 +53,7 @@ struct Search {
   std::shared_ptr<const FreeSpace> space(const Weights& weights) const {
     routing::SpaceDemands demands = options.space;
     demands.clearance_weight = weights.clearance / weights.length;
-    const double margin = 4 * options.curve.radii.front() + demands.radius + demands.clearance;
+    const double margin = 2 * options.curve.radii.front() + options.curve.end_straight + demands.radius + demands.clearance;
     return std::make_shared<const FreeSpace>(scene, demands, std::vector<Vec3>{ends.start, ends.finish}, margin, context);
   }
 };
@@ -93,8 +93,10 @@ routing::RefinementOptions refinement_of(const Options& options, const Weights& 
 std::optional<Route> nominal(const Search& search, const Weights& weights, MethodStep& count, std::string& why) {
   const std::shared_ptr<const FreeSpace> space = search.space(weights);
   const Roadmap roadmap(*space, search.options.grid, search.context);
-  const NominalRoute found =
-      routing::nominal_routing(*space, roadmap, search.lattice, {search.ends, search.options.curve}, search.context);
+  routing::NominalOptions nominal_options;
+  nominal_options.ends = search.ends;
+  nominal_options.curve = search.options.curve;
+  const NominalRoute found = routing::nominal_routing(*space, roadmap, search.lattice, nominal_options, search.context);
   count.counts[0].second += found.states;
   count.counts[1].second += found.candidates;
   if (found.status != NominalRoute::Status::found) {
