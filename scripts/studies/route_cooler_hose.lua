@@ -23,7 +23,7 @@ local outer, inner, coolant = 18*mm, 11*mm, 1060
 local rubber = rod.material{young = 9*MPa, poisson = 0.49, density = 1200 + coolant * inner^2 / (outer^2 - inner^2)}
 local demands = {
   from = frame{at = {0.326, 0.190, 0.500}, along = {0, 1, 0}},
-  to = frame{at = {1.168, 0.380, 0.446}, along = {1, 0, 0}},
+  to = frame{at = {1.152, 0.380, 0.446}, along = {1, 0, 0}},
   section = rod.section{outer = outer, inner = inner, material = rubber},
   min_bend_radius = 60*mm, min_straight = 0, clearance = 5*mm, free_ends = 40*mm,
 }

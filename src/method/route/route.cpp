@@ -151,7 +151,11 @@ bool is_known(const std::vector<Route>& routes, const Route& route) {
 }
 
 void conclude(Result& r, const std::string& why, const RunContext& context) {
-  std::stable_partition(r.routes.begin(), r.routes.end(), [](const Route& route) { return route.ok; });
+  std::vector<Route> ordered;
+  for (const bool ok : {true, false})
+    for (Route& route : r.routes)
+      if (route.ok == ok) ordered.push_back(route);
+  r.routes = std::move(ordered);
   r.ok = !r.routes.empty() && r.routes.front().ok;
   const auto kept = std::count_if(r.routes.begin(), r.routes.end(), [](const Route& route) { return route.ok; });
   if (const auto stopped = context.stop(); stopped) {
