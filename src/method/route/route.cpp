@@ -84,6 +84,8 @@ routing::RefinementOptions refinement_of(const Options& options, const Weights& 
   refinement.clearance = options.space.clearance;
   refinement.free_ends = options.curve.free_ends;
   refinement.most_clips = 0;
+  // A preformed hose gets longer at its finish, where only a straight can.
+  if (options.preformed && !(options.curve.end_straight > 0)) refinement.adjust.length = false;
   if (options.curve.min_length > 0) refinement.min_length = options.curve.min_length;
   if (std::isfinite(options.curve.max_length)) refinement.max_length = options.curve.max_length;
   return refinement;
