@@ -645,6 +645,70 @@ local preform_result_methods = {}
 ---@return string
 function preform_result_methods:report() end
 
+---One parameter before and after refinement
+---@class adjusted_parameter
+---@field after number Value found
+---@field before number Value given
+---@field name string "length", "from.turn" ...
+---@field unit string m or rad
+local adjusted_parameter_methods = {}
+
+---A demand that is not kept in equilibrium
+---@class unmet_demand
+---@field at vec Place on the centre line (m)
+---@field demanded number What was demanded
+---@field s number Arc length where (m)
+---@field text string In words
+---@field value number What it is
+local unmet_demand_methods = {}
+
+---A refined design and its equilibrium
+---@class refined_design
+---@field adjusted (adjusted_parameter)[] Each parameter before and after
+---@field clearance clearance? Smallest gap outside the free ends, with .at, .on, .s (m)
+---@field equilibrium equilibrium Of this rod alone, called "route"; nil: there was none
+---@field evaluations integer Equilibria that were looked at
+---@field from frame Frame of its start
+---@field message string What there is to say about it
+---@field min_bend_radius number In equilibrium (m)
+---@field objective number What it costs (m)
+---@field ok boolean All that is demanded is kept, in a stable equilibrium
+---@field rod rod The refined design
+---@field seconds number Run time (s)
+---@field settled_length number Of the centre line in equilibrium (m)
+---@field status string "solved", "infeasible", "stalled", "cancelled", "timeout"
+---@field to frame Frame of its finish
+---@field unmet (unmet_demand)[] Demands that are not kept, the worst first
+local refined_design_methods = {}
+
+---One design of a flexible object: nominal, and refined in equilibrium
+---@class route
+---@field equilibrium equilibrium Settled; nil: none was asked for, or found
+---@field from frame Frame of its start
+---@field length number Of the rod, unstressed (m)
+---@field min_bend_radius number In equilibrium (m)
+---@field nominal curve The nominal route
+---@field nominal_length number Of the nominal route (m)
+---@field objective number What it costs (m)
+---@field ok boolean Keeps all that is demanded
+---@field refined refined_design Its refinement
+---@field restarts integer That it took
+---@field rod rod As a design for scene:rod
+---@field to frame Frame of its finish
+---@field weights table<string, number> It was routed with
+local route_methods = {}
+
+---Routes, those that keep all first: #routes, routes[i]
+---@class routes
+---@field message string How many, or what stood in the way
+---@field ok boolean At least one route keeps all that is demanded
+---@field seconds number Run time (s)
+---@field status string "solved", "infeasible", "cancelled", "timeout"
+---@field steps (step)[] Name, seconds, counts of each
+---@field [integer] any
+---@operator len: integer
+local routes_methods = {}
+
 ---One step of a method, by the thesis's name
 ---@class step
 ---@field counts table<string, number> How many of what
@@ -1151,6 +1215,79 @@ method = {}
 ---@return preform_result
 function method.preform(scene, options) end
 
+---@class (exact) tendril.method.refine.options
+---@field rod rod The design to refine
+---@field from frame Where its start is held
+---@field to frame Where its finish is held
+---@field route? curve Roughly where it runs: the first guess, which decides the passage
+---@field min_bend_radius? number Of the centre line in equilibrium (m; >= 0; default 0)
+---@field clearance? number Least gap to every obstacle; an obstacle's own larger one stands (m; >= 0; default 0)
+---@field free_ends? number Length at both ends within which no gap is asked for (m; >= 0; default 0)
+---@field length_weight? number What a metre of the object costs (> 0; default 1)
+---@field clearance_weight? number What a metre next to an obstacle costs more (>= 0; default 0)
+---@field range? number Gap from which on that counts no more (m; > 0; default 0.1)
+---@field min_length? number Least length (m; >= 0)
+---@field max_length? number Largest length (m; > 0)
+---@field clips? integer That may be added where no adjustment helps, at most (0 ... 50; default 0)
+---@field adjust? (string)[] What may be adjusted: "length", "from.turn", "to.turn", "from.tilt", "to.tilt", "clips"; default: the length
+---@field solver? "gradient"|"gradient_free" By exact gradients, or without any as in the paper (default "gradient")
+---@field max_tension? number In equilibrium (N; > 0)
+---@field max_strain? number In equilibrium (> 0)
+---@field max_turn? number Of a connection about its tangent, either way (rad; > 0; default 3)
+---@field max_tilt? number Of a connection about each axis normal to it, either way (rad; > 0; default 0.25)
+---@field clip_reach? number How near an obstacle must be to fasten a clip to it (m; > 0; default 0.05)
+---@field seed? integer Of all random numbers: the same seed gives the same bits (>= 0; default 1)
+---@field threads? integer At most; default: all that the machine has (1 ... 4096)
+---@field progress? function function(share, what), called now and then
+---@field timeout? number Give up after this time, with the best state so far; default: never (s; > 0 and <= 1000000000)
+
+---Adjusts a design (length, turning of its connections, clips), so that its equilibrium keeps what is demanded at the least cost.
+---@param scene scene
+---@param options tendril.method.refine.options
+---@return refined_design
+function method.refine(scene, options) end
+
+---@class (exact) tendril.method.route.options
+---@field from frame Where the object begins, and its direction there
+---@field to frame Where it ends, and its direction there: on, not back
+---@field outer? number Outer diameter; that of the section when one is given (m; > 0)
+---@field section? section Cross-section: what the object is made of, for its rod and its equilibrium
+---@field min_bend_radius number|(number)[] Of the centre line: one value for every bend, or a list of the bending tools' radii (m)
+---@field min_straight? number Least straight between two bends (m; >= 0; default 0)
+---@field end_straight? number Least straight at both ends; default: min_straight (m; >= 0)
+---@field clearance? number Least gap to every obstacle; an obstacle's own larger one stands (m; >= 0; default 0)
+---@field free_ends? number Length at both ends within which no gap is asked for: the object must reach what it is plugged to (m; >= 0; default 0)
+---@field keep_in? (vec|number[])[] {corner, corner}: the whole object stays within this box (m)
+---@field keep_out? ((vec|number[])[])[] List of {corner, corner}: no part of it gets into these boxes (m)
+---@field preference? number How much more a metre costs next to obstacles with prefer = "avoid", and away from those with prefer = "near"; 0: the shortest (>= 0; default 0)
+---@field preference_range? number Gap from which on a preference counts no more (m; > 0; default 0.1)
+---@field preformed? boolean The route becomes the unstressed shape; else the object is straight without load (default false)
+---@field weights? table<string, number>|(table<string, number>)[] {length =, clearance =}: what a metre costs, and what it costs more next to obstacles; a list gives an alternative for each
+---@field grid? number Step of the search (m; > 0; default 0.02)
+---@field segments? integer Elements of the rod; default by the bend radius (>= 1)
+---@field refine? boolean Adjust the design in equilibrium under gravity; else only the nominal route (default true)
+---@field restarts? integer From routes that keep farther away, where refinement fails (0 ... 20; default 2)
+---@field clips? integer That may be added where restarts do not help, at most (0 ... 50; default 0)
+---@field min_length? number Least length (m; >= 0; default 0)
+---@field max_length? number Largest length (m; > 0)
+---@field adjust? (string)[] What may be adjusted: "length", "from.turn", "to.turn", "from.tilt", "to.tilt", "clips"; default: the length
+---@field solver? "gradient"|"gradient_free" By exact gradients, or without any as in the paper (default "gradient")
+---@field max_tension? number In equilibrium (N; > 0)
+---@field max_strain? number In equilibrium (> 0)
+---@field max_turn? number Of a connection about its tangent, either way (rad; > 0; default 3)
+---@field max_tilt? number Of a connection about each axis normal to it, either way (rad; > 0; default 0.25)
+---@field clip_reach? number How near an obstacle must be to fasten a clip to it (m; > 0; default 0.05)
+---@field seed? integer Of all random numbers: the same seed gives the same bits (>= 0; default 1)
+---@field threads? integer At most; default: all that the machine has (1 ... 4096)
+---@field progress? function function(share, what), called now and then
+---@field timeout? number Give up after this time, with the best state so far; default: never (s; > 0 and <= 1000000000)
+
+---A flexible object from one frame to another: a reference design of least cost that keeps what is demanded in equilibrium.
+---@param scene scene
+---@param options tendril.method.route.options
+---@return routes
+function method.route(scene, options) end
+
 ---@class (exact) tendril.method.stability.options
 ---@field vary? table<string, number>|(string)[] Design variables: a list of names, or {["hose.length"] = tolerance}; a name that others begin with means all of them; default: lengths, frames of holds and branch points, gravity
 ---@field measure? (string)[] Names; default: bend radius, tension, length and clearance of every rod
@@ -1197,7 +1334,7 @@ function method.variation(scene, options) end
 view = {}
 
 ---@class (exact) tendril.view.new.options
----@field [integer] scene|equilibrium|preform_result|hose The scene, its equilibrium, hoses of method.preform (all, or one to colour it by its clearance)
+---@field [integer] scene|equilibrium|preform_result|hose|routes The scene, its equilibrium, hoses of method.preform (all, or one to colour it by its clearance), routes of method.route as they are nominally
 ---@field color? string|(number)[]|stability What the rods' colour says: "clearance", "curvature", "tension", "twist", {r, g, b} from 0 to 1, or a stability: how far tolerances move it; default: clearance when there are obstacles, else curvature
 ---@field ghost? (string)[] Obstacles to see through, the others are solid; default: all
 ---@field envelope? mesh A shell around the rods to see through; with color = "clearance" its colours say how near obstacles are to it, and the rods are plain

@@ -99,12 +99,13 @@ std::optional<ClearanceValue> clearance_in(const RefinementResult& r) {
 }
 
 const std::string example =
-    "local rubber = rod.material{young = 5e6, poisson = 0.45, density = 1100}\n"
+    "local rubber = rod.material{young = 6e6, poisson = 0.49, density = 1150}\n"
     "local s = scene.new{gravity = {0, 0, -9.81}}\n"
     "s:obstacle(\"floor\", scene.box{size = {4, 4, 0.1}}, {pose = frame{at = {0, 0, -0.25}, along = {0, 0, 1}}})\n"
-    "local hose = rod.new{length = 1.1, section = rod.section{outer = 0.02, inner = 0.012, material = rubber}}\n"
-    "local r = method.refine(s, {rod = hose, from = frame{at = {0, 0, 0}, along = {1, 0, 0}}, to = frame{at = {0.8, 0, 0}, along = {1, 0, 0}},\n"
-    "                            min_bend_radius = 0.06, clearance = 0.05})\n";
+    "local hose = rod.new{length = 0.6, section = rod.section{outer = 0.02, inner = 0.012, material = rubber}}\n"
+    "local r = method.refine(s, {rod = hose, min_bend_radius = 0.06, clearance = 0.02,\n"
+    "                            from = frame{at = {0, 0, 0}, along = {0, 0, -1}, up = {0, 1, 0}},\n"
+    "                            to = frame{at = {0.3, 0, 0}, along = {0, 0, 1}, up = {0, 1, 0}}})\n";
 
 }  // namespace
 
@@ -171,7 +172,7 @@ void add_refine_to(Module& method) {
   method.function("refine",
                   {.takes = {"scene"}, .options = refine_schema(),
                    .does = "Adjusts a design (length, turning of its connections, clips), so that its equilibrium keeps what is demanded at the least cost.",
-                   .example = example + "print(r.ok, r.rod.length < 1.1)  --> true\ttrue"},
+                   .example = example + "print(r.ok, r.rod.length < 0.6)  --> true\ttrue"},
                   refine);
 }
 

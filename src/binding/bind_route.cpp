@@ -104,7 +104,8 @@ const std::string example =
     "local s = scene.new{gravity = {0, 0, -9.81}}\n"
     "s:obstacle(\"post\", scene.cylinder{radius = 40*mm, length = 1}, {clearance = 5*mm})\n"
     "local routes = method.route(s, {from = frame{at = {-0.3, 0, 0}, along = {1, 0, 0}}, to = frame{at = {0.3, 0, 0}, along = {1, 0, 0}},\n"
-    "  section = rod.section{outer = 20*mm, inner = 12*mm, material = rubber}, min_bend_radius = 50*mm})\n";
+    "  section = rod.section{outer = 20*mm, inner = 12*mm, material = rubber}, min_bend_radius = 50*mm,\n"
+    "  preformed = true, end_straight = 20*mm})\n";
 
 void bind_one_route(lua_State* L) {
   Class<RouteHandle>(L, "One design of a flexible object: nominal, and refined in equilibrium")

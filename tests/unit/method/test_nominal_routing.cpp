@@ -144,6 +144,7 @@ TEST_CASE("nominal routing: why there is none", "[route]") {
   Case c;
   c.ends = straight_ahead();
   add_wall_with_window(c.scene, {0, 0.1, 0}, 0.024);  // lets 12 mm through, 15 are needed
+  c.demands.keep_in = Eigen::AlignedBox3d(Vec3(-0.5, -0.5, -0.5), Vec3(0.5, 0.5, 0.5));  // and no way around
   const NominalRoute narrow = c.route();
   CHECK(narrow.status == NominalRoute::Status::infeasible);
   CHECK_THAT(narrow.obstruction, Catch::Matchers::Contains("wall"));
