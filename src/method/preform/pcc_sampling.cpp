@@ -7,6 +7,7 @@
 
 #include "method/pcc/pcc_unknowns.h"
 #include "method/preform/end_seeds.h"
+#include "method/preform/in_parallel.h"
 
 namespace tendril::preform {
 
@@ -176,14 +177,15 @@ std::vector<Candidate> pcc_sampling(const FreeSpace& space, const Options& optio
   if (options.max_bends >= 1) add(candidates, options, {routing::crossing(options.ends)}, -1);
   for (const PccPoints& seed : end_seeds(options, most_end_seeds, context))
     add(candidates, options, {seed.points.begin() + 1, seed.points.end() - 1}, -1);
-  for (std::size_t path = 0; path < paths.paths.size() && !context.stop(); ++path) {
-    if (paths.paths[path].size() < 2) continue;
+  std::vector<std::vector<std::vector<Vec3>>> found(paths.paths.size());  // vertices by path
+  in_parallel(found.size(), context, "candidates", [&](std::size_t path) {
+    if (paths.paths[path].size() < 2) return;
     Shortcuts shortcuts(space, options, paths.paths[path]);
-    for (int bends = 2; bends <= options.max_bends; ++bends) {
-      const std::vector<Vec3> vertices = shortcuts.best(bends);
+    for (int bends = 2; bends <= options.max_bends; ++bends) found[path].push_back(shortcuts.best(bends));
+  });
+  for (std::size_t path = 0; path < found.size(); ++path)
+    for (const std::vector<Vec3>& vertices : found[path])
       if (!vertices.empty()) add(candidates, options, vertices, static_cast<int>(path));
-    }
-  }
   return candidates;
 }
 
