@@ -11,6 +11,7 @@ void bind_method(lua_State* L) {
   const auto builder = std::make_shared<EnvelopeBuilder>();
   bind_envelope(L);
   bind_motion(L, builder);
+  bind_harness(L);
   bind_preform(L);
   bind_refine(L);
   bind_route(L);
@@ -18,6 +19,7 @@ void bind_method(lua_State* L) {
   bind_stability(L);
   bind_variation(L, builder);
   Module method(L, "method", "What engineers do with scenes: analyses and searches that take a scene and never change it");
+  add_harness_to(method);
   add_preform_to(method);
   add_refine_to(method);
   add_route_to(method);
