@@ -561,6 +561,47 @@ function motion_methods:clearance(options) end
 ---@return mesh, envelope_report
 function motion_methods:envelope(options) end
 
+---One branch of a routed harness
+---@class harness_branch
+---@field clearance clearance Smallest gap of its route, certified (m)
+---@field curve curve Its route
+---@field from string Connection or junction
+---@field length number Of its route (m)
+---@field min_bend_radius number Of its route (m)
+---@field name string Of its rod
+---@field settled_bend_radius number In equilibrium (m)
+---@field settled_clearance number In equilibrium (m)
+---@field to string Connection or junction
+---@field wires (integer)[] Numbers of the wires in it
+local harness_branch_methods = {}
+
+---A branch point of a routed harness
+---@class harness_junction
+---@field branches (integer)[] Numbers of the branches, the trunk's two first
+---@field frame frame As routed; along the trunk
+---@field settled frame In equilibrium
+local harness_junction_methods = {}
+
+---A branched harness: as routed, and in equilibrium
+---@class harness
+---@field branches (harness_branch)[] List of branches
+---@field cable_length number Over all wires (m)
+---@field equilibrium equilibrium Rods named as the branches; nil: none
+---@field harness_length number Of all branches (m)
+---@field junctions (harness_junction)[] List of branch points
+---@field length_in_collision number Settled, where it penetrates an obstacle (m)
+---@field message string What there is to say about it
+---@field misses (string)[] What is not kept, in words
+---@field ok boolean The route keeps all that is demanded, and came to rest
+---@field seconds number Run time (s)
+---@field status string "solved", "infeasible", "stalled", "cancelled", "timeout"
+---@field steps (step)[] Name, seconds, counts of each
+local harness_methods = {}
+
+---A new scene: the obstacles, and the harness as rods joined at its branch points.
+---@return scene
+function harness_methods:scene() end
+
 ---One bend of a hose, as the bending machine makes it
 ---@class bend
 ---@field angle number How far it turns (rad)
@@ -1178,6 +1219,31 @@ function scene.plane(options) end
 
 ---What engineers do with scenes: analyses and searches that take a scene and never change it
 method = {}
+
+---@class (exact) tendril.method.harness.options
+---@field connections (frame)[] Two to nine places, each with the direction in which its branch leaves
+---@field names? (string)[] Of the connections; default "1", "2" ...
+---@field wires? ((integer)[])[] Pairs of connections, counted from 1; default: each one with the first
+---@field bundling? number 0: the shortest wires ... 1: the shortest harness (0 ... 1; default 0.5)
+---@field section section Cross-section of every branch
+---@field min_bend_radius number Of the centre line (m; > 0)
+---@field min_straight? number Least straight between two bends (m; >= 0; default 0)
+---@field end_straight? number Least straight at both ends of every branch (m; >= 0; default 0)
+---@field clearance? number Least gap to every obstacle; an obstacle's own larger one stands (m; >= 0; default 0)
+---@field free_ends? number Length from the connections within which no gap is asked for (m; >= 0; default 0)
+---@field keep_in? (vec|number[])[] {corner, corner}: the whole harness stays within this box (m)
+---@field grid? number Step of the search (m; > 0; default 0.02)
+---@field settle? boolean Find its equilibrium under gravity (default true)
+---@field seed? integer Of all random numbers: the same seed gives the same bits (>= 0; default 1)
+---@field threads? integer At most; default: all that the machine has (1 ... 4096)
+---@field progress? function function(share, what), called now and then
+---@field timeout? number Give up after this time, with the best state so far; default: never (s; > 0 and <= 1000000000)
+
+---A branched harness between several connections: where it branches, how it runs, and how it settles under gravity.
+---@param scene scene
+---@param options tendril.method.harness.options
+---@return harness
+function method.harness(scene, options) end
 
 ---@class (exact) tendril.method.preform.options
 ---@field from frame Where the object begins, and its direction there
