@@ -1332,7 +1332,7 @@ function method.refine(scene, options) end
 ---@field grid? number Step of the search (m; > 0; default 0.02)
 ---@field segments? integer Elements of the rod; default by the bend radius (>= 1)
 ---@field refine? boolean Adjust the design in equilibrium under gravity; else only the nominal route (default true)
----@field restarts? integer From routes that keep farther away, where refinement fails (0 ... 20; default 2)
+---@field restarts? integer From routes with bend radius and clearance in reserve, where refinement fails (0 ... 20; default 3)
 ---@field clips? integer That may be added where restarts do not help, at most (0 ... 50; default 0)
 ---@field min_length? number Least length (m; >= 0; default 0)
 ---@field max_length? number Largest length (m; > 0)

@@ -23,7 +23,7 @@ Schema route_schema() {
              option<double>("grid", "m", "Step of the search").above(0).preset(20 * units::mm),
              option<int>("segments", "", "Elements of the rod; default by the bend radius").at_least(1),
              option<bool>("refine", "", "Adjust the design in equilibrium under gravity; else only the nominal route").preset(true),
-             option<int>("restarts", "", "From routes that keep farther away, where refinement fails").at_least(0).at_most(20).preset(2),
+             option<int>("restarts", "", "From routes with bend radius and clearance in reserve, where refinement fails").at_least(0).at_most(20).preset(3),
              option<int>("clips", "", "That may be added where restarts do not help, at most").at_least(0).at_most(50).preset(0),
              option<double>("min_length", "m", "Least length").at_least(0).preset(0),
              option<double>("max_length", "m", "Largest length").above(0),

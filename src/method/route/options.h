@@ -31,7 +31,7 @@ struct Options {
   int segments = 0;                  ///< of the rod; 0: four to an arc of the smallest bend radius, at least 40
   bool refine = true;
   routing::RefinementOptions refinement;     ///< of which weights, bend radius and clearance are overwritten
-  int restarts = 2;                  ///< with a weight of clearance revised upwards, where refinement fails
+  int restarts = 3;                  ///< where refinement fails: with bend radius and clearance in reserve, then more weight on clearance
   int max_clips = 0;                 ///< that may be added where restarts do not help
 };
 

@@ -50,9 +50,10 @@ struct Search {
         ends{options.from.at, options.from.d3(), options.to.at, options.to.d3()},
         lattice(options.grid, options.curve.radii.front(), 0.5 * options.grid) {}
 
-  std::shared_ptr<const FreeSpace> space(const Weights& weights) const {
+  std::shared_ptr<const FreeSpace> space(const Weights& weights, double more_clearance = 0) const {
     routing::SpaceDemands demands = options.space;
     demands.clearance_weight = weights.clearance / weights.length;
+    demands.clearance += more_clearance;
     const double margin = 2 * options.curve.radii.front() + options.curve.end_straight + demands.radius + demands.clearance;
     return std::make_shared<const FreeSpace>(scene, demands, std::vector<Vec3>{ends.start, ends.finish}, margin, context);
   }
@@ -91,13 +92,21 @@ routing::RefinementOptions refinement_of(const Options& options, const Weights& 
   return refinement;
 }
 
+/// What a nominal route keeps beyond what is demanded, for gravity to take.
+struct Reserve {
+  double bend_radius = 1;  ///< factor
+  double clearance = 0;    ///< m
+};
+
 /// Step 1 for one choice of weights. Nothing where there is no nominal route: `why` says what keeps the ends apart.
-std::optional<Route> nominal(const Search& search, const Weights& weights, MethodStep& count, std::string& why) {
-  const std::shared_ptr<const FreeSpace> space = search.space(weights);
+std::optional<Route> nominal(const Search& search, const Weights& weights, const Reserve& reserve, MethodStep& count,
+                             std::string& why) {
+  const std::shared_ptr<const FreeSpace> space = search.space(weights, reserve.clearance);
   const Roadmap roadmap(*space, search.options.grid, search.context);
   routing::NominalOptions nominal_options;
   nominal_options.ends = search.ends;
   nominal_options.curve = search.options.curve;
+  for (double& radius : nominal_options.curve.radii) radius *= reserve.bend_radius;
   const NominalRoute found = routing::nominal_routing(*space, roadmap, search.lattice, nominal_options, search.context);
   count.counts[0].second += found.states;
   count.counts[1].second += found.candidates;
@@ -116,7 +125,19 @@ std::optional<Route> nominal(const Search& search, const Weights& weights, Metho
   return route;
 }
 
-/// Step 2. Where refinement fails: once more from a route that keeps farther away, at last with clips.
+/// More by what gravity took from this design, and a little for what it takes from the next one.
+Reserve revised(Reserve reserve, const Route& route) {
+  using What = routing::Unmet::What;
+  for (const routing::Unmet& unmet : route.refined.unmet) {
+    if (unmet.what == What::bend_radius && unmet.value > 0)
+      reserve.bend_radius *= std::min(1.5, 1.05 * unmet.demanded / unmet.value);
+    if (unmet.what == What::clearance) reserve.clearance += std::min(0.02, 1.5 * std::max(0.0, unmet.demanded - unmet.value) + 1e-3);
+  }
+  return reserve;
+}
+
+/// Step 2. Where refinement fails: once more from a route with something in reserve, then with a revised weight of clearance, at
+/// last with clips.
 Route refined(const Search& search, Route route, MethodStep& count, MethodStep& nominal_count) {
   const Options& options = search.options;
   const auto refine = [&](Route& r, int clips) {
@@ -127,18 +148,20 @@ Route refined(const Search& search, Route route, MethodStep& count, MethodStep& 
     r.ok = r.refined.ok;
   };
   refine(route, 0);
+  Route last = route;
+  Reserve reserve;
   for (int i = 1; !route.ok && i <= options.restarts && !search.context.stop(); ++i) {
-    Weights revised = route.weights;
-    revised.clearance = std::max(2 * revised.clearance, revised.length);
+    Weights weights = last.weights;
+    reserve = revised(reserve, last);
+    if (i > 1) weights.clearance = std::max(2 * weights.clearance, weights.length);
     std::string why;
-    std::optional<Route> other = nominal(search, revised, nominal_count, why);
+    std::optional<Route> other = nominal(search, weights, reserve, nominal_count, why);
     if (!other) break;
     refine(*other, 0);
     other->restarts = i;
     count.counts[1].second += 1;
-    const bool better = other->ok || (other->refined.equilibrium && !route.refined.equilibrium);
-    if (better) route = std::move(*other);
-    else route.weights = revised;
+    last = *other;
+    if (other->ok || (other->refined.equilibrium && !route.refined.equilibrium)) route = std::move(*other);
   }
   if (!route.ok && options.max_clips > 0 && !search.context.stop()) refine(route, options.max_clips);
   if (route.refined.equilibrium) route.objective = route.refined.objective;
@@ -188,7 +211,7 @@ Result run(const Scene& scene, const Options& options, const RunContext& context
   std::string why;
   for (const Weights& weights : options.weights) {
     if (context.stop()) break;
-    std::optional<Route> route = nominal(search, weights, nominal_count, why);
+    std::optional<Route> route = nominal(search, weights, {}, nominal_count, why);
     if (route && !is_known(r.routes, *route)) r.routes.push_back(std::move(*route));
   }
   nominal_count.counts[2].second = static_cast<long>(r.routes.size());
