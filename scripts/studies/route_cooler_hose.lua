@@ -24,9 +24,9 @@ local outer, inner, coolant = 16*mm, 10*mm, 1060
 local rubber = rod.material{young = 80*MPa, poisson = 0.4, density = 1300 + coolant * inner^2 / (outer^2 - inner^2)}
 local demands = {
   from = frame{at = {0.326, 0.190, 0.500}, along = {0, 1, 0}},
-  to = frame{at = {1.138, 0.380, 0.446}, along = {1, 0, 0}},
+  to = frame{at = {1.105, 0.380, 0.450}, along = {1, 0, 0}},
   section = rod.section{outer = outer, inner = inner, material = rubber}, preformed = true,
-  min_bend_radius = 60*mm, end_straight = 20*mm, clearance = 5*mm, free_ends = 20*mm,
+  min_bend_radius = 55*mm, end_straight = 20*mm, clearance = 5*mm, free_ends = 25*mm,
 }
 local function with(t) for k, v in pairs(demands) do if t[k] == nil then t[k] = v end end return t end
 
