@@ -592,8 +592,9 @@ local harness_junction_methods = {}
 ---@field length_in_collision number Settled, where it penetrates an obstacle (m)
 ---@field message string What there is to say about it
 ---@field misses (string)[] What is not kept, in words
----@field ok boolean The route keeps all that is demanded, and came to rest
+---@field ok boolean The route keeps all that is demanded, and came to rest; see settled_misses for what gravity takes away
 ---@field seconds number Run time (s)
+---@field settled_misses (string)[] What the route keeps, but not the settled harness, in words
 ---@field status string "solved", "infeasible", "stalled", "cancelled", "timeout"
 ---@field steps (step)[] Name, seconds, counts of each
 local harness_methods = {}
@@ -1232,7 +1233,7 @@ method = {}
 ---@field clearance? number Least gap to every obstacle; an obstacle's own larger one stands (m; >= 0; default 0)
 ---@field free_ends? number Length from the connections within which no gap is asked for (m; >= 0; default 0)
 ---@field keep_in? (vec|number[])[] {corner, corner}: the whole harness stays within this box (m)
----@field grid? number Step of the search (m; > 0; default 0.02)
+---@field grid? number Step of the search (m; > 0 and <= 1; default 0.02)
 ---@field settle? boolean Find its equilibrium under gravity (default true)
 ---@field seed? integer Of all random numbers: the same seed gives the same bits (>= 0; default 1)
 ---@field threads? integer At most; default: all that the machine has (1 ... 4096)
@@ -1265,7 +1266,7 @@ function method.harness(scene, options) end
 ---@field max_length? number Largest length (m; > 0)
 ---@field from_cone? number Half angle of the cone in which the direction of the start may turn (rad; >= 0 and < 1.570796327; default 0)
 ---@field to_cone? number The same of the finish (rad; >= 0 and < 1.570796327; default 0)
----@field grid? number Step of the search for passages (m; > 0; default 0.02)
+---@field grid? number Step of the search for passages (m; > 0 and <= 1; default 0.02)
 ---@field exclusion? number Paths of the search keep this far from earlier ones (m; > 0; default 0.06)
 ---@field max_paths? integer Paths of the search, at most (1 ... 1000; default 30)
 ---@field max_detour? number Paths of the search cost at most so many times what the cheapest one costs (>= 1; default 6)
@@ -1329,7 +1330,7 @@ function method.refine(scene, options) end
 ---@field preference_range? number Gap from which on a preference counts no more (m; > 0; default 0.1)
 ---@field preformed? boolean The route becomes the unstressed shape; else the object is straight without load (default false)
 ---@field weights? table<string, number>|(table<string, number>)[] {length =, clearance =}: what a metre costs, and what it costs more next to obstacles; a list gives an alternative for each
----@field grid? number Step of the search (m; > 0; default 0.02)
+---@field grid? number Step of the search (m; > 0 and <= 1; default 0.02)
 ---@field segments? integer Elements of the rod; default by the bend radius (>= 1)
 ---@field refine? boolean Adjust the design in equilibrium under gravity; else only the nominal route (default true)
 ---@field restarts? integer From routes with bend radius and clearance in reserve, where refinement fails (0 ... 20; default 3)

@@ -44,7 +44,7 @@ Schema harness_schema() {
              option<double>("clearance", "m", "Least gap to every obstacle; an obstacle's own larger one stands").at_least(0).preset(0),
              option<double>("free_ends", "m", "Length from the connections within which no gap is asked for").at_least(0).preset(0),
              option<BoxOfCorners>("keep_in", "m", "{corner, corner}: the whole harness stays within this box"),
-             option<double>("grid", "m", "Step of the search").above(0).preset(20 * units::mm),
+             option<double>("grid", "m", "Step of the search").above(0).at_most(1).preset(20 * units::mm),
              option<bool>("settle", "", "Find its equilibrium under gravity").preset(true),
          } +
          method_schema();
@@ -83,6 +83,19 @@ std::string end_name(const HarnessResult& r, const routing::HarnessEnd& end) {
   return r.options.names.empty() ? std::to_string(end.number + 1) : r.options.names[end.number];
 }
 
+/// What the harness keeps as routed and no longer once gravity has settled it, in words.
+std::vector<std::string> settled_misses(const HarnessResult& r) {
+  std::vector<std::string> misses;
+  if (!r.equilibrium) return misses;
+  for (const routing::HarnessBranch& b : r.branches) {
+    if (b.settled_bend_radius < r.options.min_bend_radius * (1 - 1e-6))
+      misses.push_back(b.name + ": bend radius " + quantity(b.settled_bend_radius, "m") + ", " + quantity(r.options.min_bend_radius, "m") + " demanded");
+    if (b.settled_clearance.value < r.options.space.clearance - 1e-5)
+      misses.push_back(b.name + ": gap " + quantity(b.settled_clearance.value, "m") + ", " + quantity(r.options.space.clearance, "m") + " demanded");
+  }
+  return misses;
+}
+
 std::string describe_harness(const HarnessHandle& h) {
   const HarnessResult& r = *h.result;
   Card card("harness");
@@ -99,6 +112,7 @@ std::string describe_harness(const HarnessHandle& h) {
   if (!rows.empty())
     text += "\n" + table_text({"branch", "from", "to", "wires", "length", "bend radius", "clearance", "settled bend radius", "settled clearance"}, rows);
   for (const std::string& miss : r.misses) text += "\nnot kept: " + miss;
+  for (const std::string& miss : settled_misses(r)) text += "\nnot kept once settled: " + miss;
   return text;
 }
 
@@ -149,7 +163,7 @@ void bind_parts(lua_State* L) {
 void bind_harness(lua_State* L) {
   bind_parts(L);
   Class<HarnessHandle>(L, "A branched harness: as routed, and in equilibrium")
-      .property("ok", "", "The route keeps all that is demanded, and came to rest", [](const HarnessHandle& h) { return h.result->ok; })
+      .property("ok", "", "The route keeps all that is demanded, and came to rest; see settled_misses for what gravity takes away", [](const HarnessHandle& h) { return h.result->ok; })
       .property("status", "", "\"solved\", \"infeasible\", \"stalled\", \"cancelled\", \"timeout\"", [](const HarnessHandle& h) { return name_of(h.result->status); })
       .property("message", "", "What there is to say about it", [](const HarnessHandle& h) { return h.result->message; })
       .property("seconds", "s", "Run time", [](const HarnessHandle& h) { return h.result->seconds; })
@@ -161,6 +175,7 @@ void bind_harness(lua_State* L) {
       })
       .property("junctions", "", "List of branch points", [](const HarnessHandle& h) { return h.result->junctions; })
       .property("misses", "", "What is not kept, in words", [](const HarnessHandle& h) { return h.result->misses; })
+      .property("settled_misses", "", "What the route keeps, but not the settled harness, in words", [](const HarnessHandle& h) { return settled_misses(*h.result); })
       .property("harness_length", "m", "Of all branches", [](const HarnessHandle& h) { return h.result->harness_length; })
       .property("cable_length", "m", "Over all wires", [](const HarnessHandle& h) { return h.result->cable_length; })
       .property("length_in_collision", "m", "Settled, where it penetrates an obstacle", [](const HarnessHandle& h) { return h.result->length_in_collision; })

@@ -30,7 +30,7 @@ Schema preform_schema() {
              option<double>("max_length", "m", "Largest length").above(0),
              option<double>("from_cone", "rad", "Half angle of the cone in which the direction of the start may turn").at_least(0).below(units::pi / 2).preset(0),
              option<double>("to_cone", "rad", "The same of the finish").at_least(0).below(units::pi / 2).preset(0),
-             option<double>("grid", "m", "Step of the search for passages").above(0).preset(20 * units::mm),
+             option<double>("grid", "m", "Step of the search for passages").above(0).at_most(1).preset(20 * units::mm),
              option<double>("exclusion", "m", "Paths of the search keep this far from earlier ones").above(0).preset(60 * units::mm),
              option<int>("max_paths", "", "Paths of the search, at most").at_least(1).at_most(1000).preset(30),
              option<double>("max_detour", "", "Paths of the search cost at most so many times what the cheapest one costs").at_least(1).preset(6.0),

@@ -20,7 +20,7 @@ Schema route_schema() {
              option<bool>("preformed", "", "The route becomes the unstressed shape; else the object is straight without load").preset(false),
              option<OneOrMany>("weights", "", "{length =, clearance =}: what a metre costs, and what it costs more next to obstacles; a list "
                                               "gives an alternative for each"),
-             option<double>("grid", "m", "Step of the search").above(0).preset(20 * units::mm),
+             option<double>("grid", "m", "Step of the search").above(0).at_most(1).preset(20 * units::mm),
              option<int>("segments", "", "Elements of the rod; default by the bend radius").at_least(1),
              option<bool>("refine", "", "Adjust the design in equilibrium under gravity; else only the nominal route").preset(true),
              option<int>("restarts", "", "From routes with bend radius and clearance in reserve, where refinement fails").at_least(0).at_most(20).preset(3),

@@ -7,6 +7,7 @@
 
 #include "base/units.h"
 #include "binding/card.h"
+#include "binding/compose_tubes.h"
 #include "method/preform/bending_table.h"
 #include "view/colour_map.h"
 
@@ -127,16 +128,7 @@ std::vector<PictureDesign> designs_of(const route::Result& result) {
   return designs;
 }
 
-ColourScale gap_scale(const preform::Result& result) {
-  const std::optional<double> required = common_demand(result.space->surroundings());
-  ColourScale scale;
-  scale.meaning = ColourMeaning::clearance;
-  scale.name = required ? "clearance" : "margin to required clearance";
-  scale.unit = "mm";
-  scale.limit = required.value_or(0) / units::mm;
-  scale.broken = LimitSide::below;
-  return scale;
-}
+ColourScale gap_scale(const preform::Result& result) { return scale_of_gaps(common_demand(result.space->surroundings())); }
 
 void add_designs(const std::vector<PictureDesign>& designs, Picture& picture) {
   constexpr std::size_t most = 12;  // designs with rows of their own; more would not fit the card

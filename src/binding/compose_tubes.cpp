@@ -131,8 +131,7 @@ std::optional<double> common_clearance(const std::vector<PlacedObstacle>& obstac
   return obstacles.front().clearance;
 }
 
-ColourScale clearance_scale(const std::vector<PlacedObstacle>& obstacles) {
-  const std::optional<double> required = common_clearance(obstacles);
+ColourScale scale_of_gaps(std::optional<double> required) {
   ColourScale scale;
   scale.meaning = ColourMeaning::clearance;
   scale.name = required ? "clearance" : "margin to required clearance";
@@ -141,6 +140,8 @@ ColourScale clearance_scale(const std::vector<PlacedObstacle>& obstacles) {
   scale.broken = LimitSide::below;
   return scale;
 }
+
+ColourScale clearance_scale(const std::vector<PlacedObstacle>& obstacles) { return scale_of_gaps(common_clearance(obstacles)); }
 
 std::vector<PictureTube> compose_tubes(const SceneEquilibrium& eq, const PictureWish& wish) {
   const std::optional<double> alike = common_clearance(eq.obstacles);

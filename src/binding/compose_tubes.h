@@ -17,6 +17,9 @@ ColourScale compose_scale(const SceneEquilibrium& equilibrium, RodColour colour)
 /// each requires.
 std::optional<double> common_clearance(const std::vector<PlacedObstacle>& obstacles);
 
+/// What gaps in mm mean: the clearance, where all ask for the same (m), else the margin to what each asks for.
+ColourScale scale_of_gaps(std::optional<double> required);
+
 /// The meaning of clearance to such obstacles.
 ColourScale clearance_scale(const std::vector<PlacedObstacle>& obstacles);
 

@@ -33,6 +33,10 @@ check.case("three connections: a trunk and two branches, measured and settled", 
   check.equal(#h.equilibrium.rods or 3, 3)
   check.is_true(h.equilibrium.ok)
   check.equal(h.length_in_collision, 0.0)
+  for _, b in ipairs(h.branches) do
+    local told = table.concat(h.settled_misses, "\n"):find(b.name .. ": bend radius", 1, true) ~= nil
+    check.equal(told, b.settled_bend_radius < 40*mm * (1 - 1e-6), "a settled bend that is too sharp is told")
+  end
   check.contains(tostring(h), "harness length", "ecu", "lamp", "horn", "junction 1")
   local again = h:scene():solve()
   check.is_true(again.ok)
