@@ -8,7 +8,7 @@
 #include <ompl/base/spaces/RealVectorStateSpace.h>
 #include <ompl/geometric/PathSimplifier.h>
 #include <ompl/geometric/SimpleSetup.h>
-#include <ompl/geometric/planners/informedtrees/BITstar.h>
+#include <ompl/geometric/planners/prm/PRMstar.h>
 #include <ompl/geometric/planners/rrt/RRTstar.h>
 #include <ompl/util/RandomNumbers.h>
 
@@ -128,7 +128,7 @@ int main(int argc, char** argv) {
                 1e3 * (options.ends.finish - options.ends.start).norm(), "preform", result.seconds, result.hoses.size(),
                 result.passages, 1e3 * best);
     report<og::RRTstar>("RRT*", space, options.ends, seconds, best);
-    report<og::BITstar>("BIT*", space, options.ends, seconds, best);
+    report<og::PRMstar>("PRM*", space, options.ends, seconds, best);
   }
   return 0;
 }
