@@ -1,0 +1,71 @@
+#include "method/route/refined_route.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tendril::route {
+
+namespace {
+
+routing::RefinementOptions refinement_of(const Options& options, const Weights& weights) {
+  routing::RefinementOptions refinement = options.refinement;
+  refinement.length_weight = 1;
+  refinement.clearance_weight = weights.clearance / weights.length;
+  refinement.preference_weight = options.space.preference;
+  refinement.range = options.space.preference_range;
+  refinement.min_bend_radius = options.curve.radii.front();
+  refinement.clearance = options.space.clearance;
+  refinement.free_ends = options.curve.free_ends;
+  refinement.most_clips = 0;
+  // A preformed hose gets longer at its finish, where only a straight can.
+  if (options.preformed && !(options.curve.end_straight > 0)) refinement.adjust.length = false;
+  if (options.curve.min_length > 0) refinement.min_length = options.curve.min_length;
+  if (std::isfinite(options.curve.max_length)) refinement.max_length = options.curve.max_length;
+  return refinement;
+}
+
+/// More by what gravity took from this design, and a little for what it takes from the next one.
+Reserve revised(Reserve reserve, const Route& route) {
+  using What = routing::Unmet::What;
+  for (const routing::Unmet& unmet : route.refined.unmet) {
+    if (unmet.what == What::bend_radius && unmet.value > 0)
+      reserve.bend_radius *= std::min(1.5, 1.05 * unmet.demanded / unmet.value);
+    if (unmet.what == What::clearance) reserve.clearance += std::min(0.02, 1.5 * std::max(0.0, unmet.demanded - unmet.value) + 1e-3);
+  }
+  return reserve;
+}
+
+}  // namespace
+
+Route refined(const Search& search, Route route, MethodStep& count, MethodStep& nominal_count) {
+  const Options& options = search.options;
+  const auto refine = [&](Route& r, int clips) {
+    routing::RefinementOptions refinement = refinement_of(options, r.weights);
+    refinement.most_clips = clips;
+    r.refined = routing::refine(search.scene, r.design, refinement, search.context);
+    count.counts[0].second += r.refined.evaluations;
+    r.ok = r.refined.ok;
+  };
+  refine(route, 0);
+  Route last = route;
+  Reserve reserve;
+  for (int i = 1; !route.ok && i <= options.restarts && !search.context.stop(); ++i) {
+    Weights weights = last.weights;
+    reserve = revised(reserve, last);
+    if (i > 1) weights.clearance = std::max(2 * weights.clearance, weights.length);
+    std::string why;
+    std::optional<Route> other = nominal(search, weights, reserve, nominal_count, why);
+    if (!other) break;
+    refine(*other, 0);
+    other->restarts = i;
+    count.counts[1].second += 1;
+    last = *other;
+    if (other->ok || (other->refined.equilibrium && !route.refined.equilibrium)) route = std::move(*other);
+  }
+  if (!route.ok && options.max_clips > 0 && !search.context.stop()) refine(route, options.max_clips);
+  if (route.refined.equilibrium) route.objective = route.refined.objective;
+  route.design = route.refined.design;
+  return route;
+}
+
+}  // namespace tendril::route
