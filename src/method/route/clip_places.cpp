@@ -1,14 +1,38 @@
-// Where a rod might be fastened: near an obstacle that takes clips, where it helps most.
+#include "method/route/clip_places.h"
+
 #include <algorithm>
 #include <cmath>
 
 #include "method/route/local_refinement.h"
 
 namespace tendril::routing {
-namespace {
 
-/// How far from holds a clip must stay for it to make sense.
-double room_at_holds(const Rod& rod) { return std::max(0.05 * rod.length, 4 * rod.largest_radius()); }
+double room_at_holds(double length, double radius) { return std::max(0.02 * length, 4 * radius); }
+
+bool ClipSites::take(const Vec3& at, double radius) const {
+  if (!around) return false;
+  const ClosestPoint kept = around->closest_kept(at, 1e3, 1e3);
+  if (kept.obstacle >= 0 && kept.distance < radius) return false;
+  for (int k = 0; k < static_cast<int>(obstacles->size()); ++k)
+    if ((*obstacles)[k].clip && around->closest_on(k, at, reach + radius).obstacle >= 0) return true;
+  return false;
+}
+
+std::vector<Hold> clip_places(const std::function<Frame(double)>& way, double length, double radius, double spacing, double ends,
+                              const ClipSites& sites) {
+  std::vector<Hold> places;
+  const double room = length - 2 * ends;
+  if (!(room >= 0) || !(spacing > 0)) return places;
+  const int pieces = static_cast<int>(std::ceil(room / spacing));
+  for (int i = 0; i <= pieces; ++i) {
+    const double s = pieces > 0 ? ends + room * i / pieces : 0.5 * length;
+    const Frame frame = way(s);
+    if (sites.take(frame.at, radius)) places.push_back({s, frame});
+  }
+  return places;
+}
+
+namespace {
 
 /// Holds before and after an arc length.
 std::pair<const Hold*, const Hold*> neighbours(const RodProblem& problem, double s) {
@@ -30,22 +54,14 @@ Frame unsagged(const RodProblem& problem, const Design& design, double s, const 
   return {at, shortest_turn(now.d3(), way.normalized()) * now.rotation};
 }
 
-/// Clear of everything by what it demands, and within reach of something to fasten to.
-bool may_be_clipped(const SceneEquilibrium& eq, const Vec3& at, double radius, double reach) {
-  const ClosestPoint kept = eq.surroundings->closest_kept(at, 1e3, 1e3);
-  if (kept.obstacle >= 0 && kept.distance < radius) return false;
-  for (int k = 0; k < static_cast<int>(eq.obstacles.size()); ++k)
-    if (eq.obstacles[k].clip && eq.surroundings->closest_on(k, at, reach + radius).obstacle >= 0) return true;
-  return false;
-}
-
 /// The clip at an arc length: as little sagged as something is in reach.
 std::optional<Hold> clip_at(const SceneEquilibrium& eq, const Design& design, double s, double reach) {
   const SolvedRod& rod = eq.rods.front();
   const Frame now = rod.equilibrium.frame_at(s), best = unsagged(rod.problem, design, s, now);
   for (const double share : {1.0, 0.8, 0.6, 0.4, 0.2, 0.0}) {
     const Frame frame{now.at + share * (best.at - now.at), now.rotation.slerp(share, best.rotation)};
-    if (may_be_clipped(eq, frame.at, rod.problem.rod.section_at(s).radius(), reach)) return Hold{s, frame};
+    if (ClipSites{eq.surroundings.get(), &eq.obstacles, reach}.take(frame.at, rod.problem.rod.section_at(s).radius()))
+      return Hold{s, frame};
   }
   return std::nullopt;
 }
@@ -92,7 +108,7 @@ double wanted_place(const SceneEquilibrium& eq, const RefinementOptions& options
 std::optional<Hold> propose_clip(const SceneEquilibrium& equilibrium, const Design& design, const RefinementOptions& options) {
   if (equilibrium.rods.empty() || equilibrium.rods.front().equilibrium.s.empty() || !equilibrium.surroundings) return std::nullopt;
   const RodProblem& problem = equilibrium.rods.front().problem;
-  const double wanted = wanted_place(equilibrium, options), apart = room_at_holds(problem.rod);
+  const double wanted = wanted_place(equilibrium, options), apart = std::max(0.05 * problem.rod.length, 4 * problem.rod.largest_radius());
   std::optional<Hold> best;
   constexpr int places = 100;
   for (int i = 1; i < places; ++i) {

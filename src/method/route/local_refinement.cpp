@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "method/route/clipped_design.h"
 #include "method/route/derivative_free.h"
 #include "method/route/design_model.h"
 #include "method/route/refinement_report.h"
@@ -168,10 +169,70 @@ class Refinement {
 
 }  // namespace
 
-RefinementResult refine(const Scene& scene, const Design& design, const RefinementOptions& options, const RunContext& context) {
-  const Clock::time_point began = Clock::now();
-  const SurroundingsByUse around(scene, options);
-  RefinementResult result = Refinement(around, scene.gravity(), design, options, context).run();
+namespace {
+
+/// One refinement after another: their equilibria in one history.
+class Attempts {
+ public:
+  Attempts(const Scene& scene, const RefinementOptions& options, const RunContext& context)
+      : around_(scene, options), gravity_(scene.gravity()), context_(context) {}
+
+  const SurroundingsByUse& around() const { return around_; }
+  const Vec3& gravity() const { return gravity_; }
+
+  RefinementResult run(const Design& design, const RefinementOptions& options) {
+    const double before = seconds_since(began_);
+    RefinementResult result = Refinement(around_, gravity_, design, options, context_).run();
+    for (RefinementRecord& record : result.history) {
+      record.seconds += before;
+      history_.push_back(record);
+    }
+    return result;
+  }
+
+  void conclude(RefinementResult& result) {
+    result.history = std::move(history_);
+    result.evaluations = static_cast<int>(result.history.size());
+    result.seconds = seconds_since(began_);
+  }
+
+ private:
+  SurroundingsByUse around_;
+  Vec3 gravity_;
+  const RunContext& context_;
+  Clock::time_point began_ = Clock::now();
+  std::vector<RefinementRecord> history_;
+};
+
+bool may_need_clips(const RefinementResult& result) {
+  return result.status == Status::infeasible || result.status == Status::stalled;
+}
+
+/// As few clips along the way as hold the design there, then their arc lengths. False: there is no way, or no place on it.
+bool clip_along_way(Attempts& attempts, const Design& design, const RefinementOptions& options, const RunContext& context,
+                    RefinementResult& result) {
+  const std::optional<ClippedDesign> clipped = clipped_along_way(attempts.around(), attempts.gravity(), design, options, context);
+  if (!clipped || context.stop()) return false;
+  const auto explain = [&] {
+    if (!result.ok && !clipped->lack.empty()) result.message += (result.message.empty() ? "" : "; ") + clipped->lack;
+  };
+  if (!clipped->found) {
+    explain();
+    return true;
+  }
+  RefinementOptions with_clips = options;
+  with_clips.adjust.clips = options.adjust.clips || design.clips.empty();
+  RefinementResult held = attempts.run(clipped->design, with_clips);
+  if (held.equilibrium || !result.equilibrium) {
+    result = std::move(held);
+    result.added_clips = clipped->added;
+  }
+  explain();
+  return true;
+}
+
+/// Without a way to lie on: a clip where what is demanded is missed most, again and again.
+void clip_where_missed(Attempts& attempts, const RefinementOptions& options, RefinementResult& result) {
   std::vector<Hold> added;
   while (result.status == Status::infeasible && result.equilibrium && static_cast<int>(added.size()) < options.most_clips) {
     const std::optional<Hold> clip = propose_clip(*result.equilibrium, result.design, options);
@@ -182,14 +243,32 @@ RefinementResult refine(const Scene& scene, const Design& design, const Refineme
     Design clipped = result.design;
     clipped.clips.push_back(*clip);
     added.push_back(*clip);
-    std::vector<RefinementRecord> history = std::move(result.history);
-    result = Refinement(around, scene.gravity(), clipped, options, context).run();
-    history.insert(history.end(), result.history.begin(), result.history.end());
-    result.history = std::move(history);
+    result = attempts.run(clipped, options);
   }
   result.added_clips = added;
-  result.evaluations = static_cast<int>(result.history.size());
-  result.seconds = seconds_since(began);
+}
+
+}  // namespace
+
+RefinementResult refine(const Scene& scene, const Design& design, const RefinementOptions& options, const RunContext& context) {
+  Attempts attempts(scene, options, context);
+  RefinementResult result = attempts.run(design, options);
+  if (options.most_clips > 0 && may_need_clips(result) && !clip_along_way(attempts, design, options, context, result))
+    clip_where_missed(attempts, options, result);
+  attempts.conclude(result);
+  return result;
+}
+
+RefinementResult refine_clipped(const Scene& scene, const Design& design, const RefinementOptions& options, const RunContext& context) {
+  Attempts attempts(scene, options, context);
+  RefinementResult result;
+  result.status = Status::infeasible;
+  result.design = design;
+  if (!clip_along_way(attempts, design, options, context, result)) {
+    result.status = context.stop().value_or(Status::infeasible);
+    result.message = "nothing to fasten a clip to is in reach of the route";
+  }
+  attempts.conclude(result);
   return result;
 }
 

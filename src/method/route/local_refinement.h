@@ -76,7 +76,8 @@ struct RefinementOptions {
   SolveOptions solve;                       ///< of the equilibria; `clearance` is judge, `error` for the last one only
 
   /// Where no adjustment helps: so many clips may be added, on obstacles that rods may be fastened to (PlacedObstacle::clip)
-  /// within `clip_reach` (m, from the rod's surface).
+  /// within `clip_reach` (m, from the rod's surface): as few as hold the design along its route, their arc lengths adjusted (with
+  /// those of its own clips only if Adjust says so); without a route one after the other, where it misses most.
   int most_clips = 0;
   double clip_reach = 0.05;
 };
@@ -129,6 +130,10 @@ struct RefinementResult {
 /// Throws UsageError for designs and options that make no sense, and for a method of NLopt that cannot be loaded.
 RefinementResult refine(const Scene& scene, const Design& design, const RefinementOptions& options = {},
                         const RunContext& context = {});
+
+/// The same, but with at most options.most_clips clips along the design's way from the beginning: as few as hold it there.
+RefinementResult refine_clipped(const Scene& scene, const Design& design, const RefinementOptions& options = {},
+                                const RunContext& context = {});
 
 /// A place for one more clip: as near as possible to where the rod misses its clearance most (where it misses none: sags most), on
 /// its route or else the straight between its neighbouring holds, or as near to that as something to fasten to is within

@@ -35,6 +35,32 @@ Reserve revised(Reserve reserve, const Route& route) {
   return reserve;
 }
 
+/// Held by clips on its nominal route; where that bends too sharply or runs too near between them, on one with more in reserve.
+void clip(const Search& search, Route& route, MethodStep& count, MethodStep& nominal_count) {
+  Route trial = route;
+  Reserve reserve;
+  for (int i = 0;; ++i) {
+    routing::RefinementOptions refinement = refinement_of(search.options, trial.weights);
+    refinement.most_clips = search.options.max_clips;
+    trial.refined = routing::refine_clipped(search.scene, trial.design, refinement, search.context);
+    trial.ok = trial.refined.ok;
+    count.counts[0].second += trial.refined.evaluations;
+    if (trial.ok || i == 0) {
+      const int restarts = route.restarts + i;
+      if (trial.refined.equilibrium || !route.refined.equilibrium) route = trial;
+      route.restarts = restarts;
+    }
+    if (trial.ok || i >= search.options.restarts || search.context.stop()) return;
+    reserve.bend_radius *= 1.2;
+    reserve.clearance += 2e-3;
+    std::string why;
+    std::optional<Route> other = nominal(search, route.weights, reserve, nominal_count, why);
+    if (!other) return;
+    count.counts[1].second += 1;
+    trial = std::move(*other);
+  }
+}
+
 }  // namespace
 
 Route refined(const Search& search, Route route, MethodStep& count, MethodStep& nominal_count) {
@@ -62,7 +88,7 @@ Route refined(const Search& search, Route route, MethodStep& count, MethodStep& 
     last = *other;
     if (other->ok || (other->refined.equilibrium && !route.refined.equilibrium)) route = std::move(*other);
   }
-  if (!route.ok && options.max_clips > 0 && !search.context.stop()) refine(route, options.max_clips);
+  if (!route.ok && options.max_clips > 0 && !search.context.stop()) clip(search, route, count, nominal_count);
   if (route.refined.equilibrium) route.objective = route.refined.objective;
   route.design = route.refined.design;
   return route;
