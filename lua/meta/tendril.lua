@@ -725,14 +725,18 @@ local refined_design_methods = {}
 
 ---One design of a flexible object: nominal, and refined in equilibrium
 ---@class route
+---@field clearance clearance Smallest gap outside the free ends, with .at, .on, .s; in equilibrium, else of the nominal route (m)
+---@field clip_places (number)[] Arc lengths of the clips (m)
+---@field clips (frame)[] Frames of the clips that hold it, from start to finish
 ---@field equilibrium equilibrium Settled; nil: none was asked for, or found
 ---@field from frame Frame of its start
 ---@field length number Of the rod, unstressed (m)
----@field min_bend_radius number In equilibrium (m)
+---@field min_bend_radius number In equilibrium, else of the nominal route (m)
 ---@field nominal curve The nominal route
 ---@field nominal_length number Of the nominal route (m)
 ---@field objective number What it costs (m)
 ---@field ok boolean Keeps all that is demanded
+---@field preference number What clearance and preferences add to the length in its objective (m)
 ---@field refined refined_design Its refinement
 ---@field restarts integer That it took
 ---@field rod rod As a design for scene:rod
@@ -742,6 +746,7 @@ local route_methods = {}
 
 ---Routes, those that keep all first: #routes, routes[i]
 ---@class routes
+---@field front (route)[] Those that no other one beats in both length and clearance, by rising length
 ---@field message string How many, or what stood in the way
 ---@field ok boolean At least one route keeps all that is demanded
 ---@field seconds number Run time (s)
@@ -750,6 +755,37 @@ local route_methods = {}
 ---@field [integer] any
 ---@operator len: integer
 local routes_methods = {}
+
+---@class (exact) tendril.routes.chart.options
+---@field title? string Above it; default: "Routes: length against clearance"
+
+---Clearance over length of all alternatives, with the line of those that no other one beats in both.
+---@param options? tendril.routes.chart.options
+---@return chart
+function routes_methods:chart(options) end
+
+---One of several objects that were routed in order
+---@class routed_object
+---@field name string As given
+---@field ok boolean Keeps all that is demanded
+---@field route route? The one that the objects after it keep clear of; nil: none was found
+---@field routes routes Its alternatives, as method.route gives them
+local routed_object_methods = {}
+
+---Several objects, routed in order: #objects, objects[i]
+---@class routed_objects
+---@field message string How many, or which one found no way, and why
+---@field ok boolean Each of them keeps all that is demanded
+---@field seconds number Run time (s)
+---@field status string "solved", "infeasible", "cancelled", "timeout"
+---@field steps (step)[] Name, seconds, counts of each object
+---@field [integer] any
+---@operator len: integer
+local routed_objects_methods = {}
+
+---A new scene: the obstacles, and every object as a rod, held at its ends and clips.
+---@return scene
+function routed_objects_methods:scene() end
 
 ---One step of a method, by the thesis's name
 ---@class step
@@ -1354,6 +1390,51 @@ function method.refine(scene, options) end
 ---@param options tendril.method.route.options
 ---@return routes
 function method.route(scene, options) end
+
+---@class (exact) tendril.method.route_all.options
+---@field [integer] table In order; named options beside them are for all of them
+---@field from? frame Where the object begins, and its direction there
+---@field to? frame Where it ends, and its direction there: on, not back
+---@field outer? number Outer diameter; that of the section when one is given (m; > 0)
+---@field section? section Cross-section: what the object is made of, for its rod and its equilibrium
+---@field min_bend_radius? number|(number)[] Of the centre line: one value for every bend, or a list of the bending tools' radii (m)
+---@field min_straight? number Least straight between two bends (m; >= 0; default 0)
+---@field end_straight? number Least straight at both ends; default: min_straight (m; >= 0)
+---@field clearance? number Least gap to every obstacle; an obstacle's own larger one stands (m; >= 0; default 0)
+---@field free_ends? number Length at both ends within which no gap is asked for: the object must reach what it is plugged to (m; >= 0; default 0)
+---@field keep_in? (vec|number[])[] {corner, corner}: the whole object stays within this box (m)
+---@field keep_out? ((vec|number[])[])[] List of {corner, corner}: no part of it gets into these boxes (m)
+---@field preference? number How much more a metre costs next to obstacles with prefer = "avoid", and away from those with prefer = "near"; 0: the shortest (>= 0; default 0)
+---@field preference_range? number Gap from which on a preference counts no more (m; > 0; default 0.1)
+---@field preformed? boolean The route becomes the unstressed shape; else the object is straight without load (default false)
+---@field weights? table<string, number>|(table<string, number>)[] {length =, clearance =}: what a metre costs, and what it costs more next to obstacles; a list gives an alternative for each
+---@field grid? number Step of the search (m; > 0 and <= 1; default 0.02)
+---@field segments? integer Elements of the rod; default by the bend radius (>= 1)
+---@field refine? boolean Adjust the design in equilibrium under gravity; else only the nominal route (default true)
+---@field restarts? integer From routes with bend radius and clearance in reserve, where refinement fails (0 ... 20; default 3)
+---@field clips? integer That may be added where restarts do not help, at most (0 ... 50; default 0)
+---@field min_length? number Least length (m; >= 0; default 0)
+---@field max_length? number Largest length (m; > 0)
+---@field adjust? (string)[] What may be adjusted: "length", "from.turn", "to.turn", "from.tilt", "to.tilt", "clips"; default: the length
+---@field solver? "gradient"|"gradient_free" By exact gradients, or without any as in the paper (default "gradient")
+---@field max_tension? number In equilibrium (N; > 0)
+---@field max_strain? number In equilibrium (> 0)
+---@field max_turn? number Of a connection about its tangent, either way (rad; > 0; default 3)
+---@field max_tilt? number Of a connection about each axis normal to it, either way (rad; > 0; default 0.25)
+---@field clip_reach? number How near an obstacle must be to fasten a clip to it (m; > 0; default 0.05)
+---@field name? string Of the object, and of its rod in scene()
+---@field apart? number Least gap to the objects before it; its clearance where that is more (m; >= 0; default 0)
+---@field earlier? "neutral"|"near"|"avoid" How it likes to run beside the objects before it; counts with 'preference' (default "neutral")
+---@field seed? integer Of all random numbers: the same seed gives the same bits (>= 0; default 1)
+---@field threads? integer At most; default: all that the machine has (1 ... 4096)
+---@field progress? function function(share, what), called now and then
+---@field timeout? number Give up after this time, with the best state so far; default: never (s; > 0 and <= 1000000000)
+
+---Several flexible objects in order, each an obstacle for those that follow; options of method.route for all or for each.
+---@param scene scene
+---@param options? tendril.method.route_all.options
+---@return routed_objects
+function method.route_all(scene, options) end
 
 ---@class (exact) tendril.method.stability.options
 ---@field vary? table<string, number>|(string)[] Design variables: a list of names, or {["hose.length"] = tolerance}; a name that others begin with means all of them; default: lengths, frames of holds and branch points, gravity

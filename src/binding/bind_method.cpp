@@ -15,6 +15,7 @@ void bind_method(lua_State* L) {
   bind_preform(L);
   bind_refine(L);
   bind_route(L);
+  bind_route_all(L);
   bind_steps(L);
   bind_stability(L);
   bind_variation(L, builder);
@@ -23,6 +24,7 @@ void bind_method(lua_State* L) {
   add_preform_to(method);
   add_refine_to(method);
   add_route_to(method);
+  add_route_all_to(method);
   add_stability_to(method);
   add_variation_to(method);
 }

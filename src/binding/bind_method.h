@@ -12,12 +12,14 @@ void bind_harness(lua_State* L);
 void bind_preform(lua_State* L);
 void bind_refine(lua_State* L);
 void bind_route(lua_State* L);
+void bind_route_all(lua_State* L);
 void bind_stability(lua_State* L);
 void bind_variation(lua_State* L, const std::shared_ptr<EnvelopeBuilder>& builder);
 void add_harness_to(Module& method);
 void add_preform_to(Module& method);
 void add_refine_to(Module& method);
 void add_route_to(Module& method);
+void add_route_all_to(Module& method);
 void add_stability_to(Module& method);
 void add_variation_to(Module& method);
 

@@ -1,4 +1,6 @@
 // method.route: a flexible object from connection to connection, in equilibrium under gravity.
+#include <cmath>
+#include <limits>
 #include <map>
 
 #include "base/units.h"
@@ -6,13 +8,28 @@
 #include "binding/card.h"
 #include "binding/method_options.h"
 #include "binding/method_steps.h"
+#include "binding/clearance_value.h"
+#include "binding/route_chart.h"
 #include "binding/route_classes.h"
 #include "binding/scene_classes.h"
+#include "method/route/pareto_front.h"
 
 namespace tendril::lua {
 namespace {
 
 using OneOrMany = std::variant<std::map<std::string, double>, std::vector<std::map<std::string, double>>>;
+
+route::Weights weights_of(const Options& o, const std::map<std::string, double>& given) {
+  route::Weights weights;
+  for (const auto& [name, value] : given) {
+    if (name == "length") weights.length = value;
+    else if (name == "clearance") weights.clearance = value;
+    else throw UsageError(o.who() + ": 'weights': unknown name '" + name + "', expected 'length' and 'clearance'");
+  }
+  return weights;
+}
+
+}  // namespace
 
 Schema route_schema() {
   return routing_schema() +
@@ -28,17 +45,7 @@ Schema route_schema() {
              option<double>("min_length", "m", "Least length").at_least(0).preset(0),
              option<double>("max_length", "m", "Largest length").above(0),
          } +
-         refinement_schema() + method_schema();
-}
-
-route::Weights weights_of(const Options& o, const std::map<std::string, double>& given) {
-  route::Weights weights;
-  for (const auto& [name, value] : given) {
-    if (name == "length") weights.length = value;
-    else if (name == "clearance") weights.clearance = value;
-    else throw UsageError(o.who() + ": 'weights': unknown name '" + name + "', expected 'length' and 'clearance'");
-  }
-  return weights;
+         refinement_schema();
 }
 
 route::Options route_options(const Options& o) {
@@ -68,7 +75,14 @@ route::Options route_options(const Options& o) {
   return options;
 }
 
+namespace {
+
 std::string weights_text(const route::Weights& w) { return plain_number(w.length) + " : " + plain_number(w.clearance); }
+
+/// In equilibrium, else of the nominal route; m.
+double bend_radius_of(const route::Route& route) {
+  return route.refined.equilibrium ? route.refined.min_bend_radius : route.nominal.curve().min_bend_radius();
+}
 
 std::string describe_routes(const route::Result& r) {
   Card card("routes");
@@ -78,9 +92,8 @@ std::string describe_routes(const route::Result& r) {
   for (std::size_t i = 0; i < r.routes.size(); ++i) {
     const route::Route& route = r.routes[i];
     const routing::RefinementResult& refined = route.refined;
-    const bool settled = refined.equilibrium != nullptr;
     rows.push_back({std::to_string(i + 1), weights_text(route.weights), quantity(route.nominal_length, "m"), quantity(route.design.rod.length, "m"),
-                    settled ? quantity(refined.min_bend_radius, "m") : "", settled && !refined.clearance_to.empty() ? quantity(refined.clearance.value, "m") : "",
+                    quantity(bend_radius_of(route), "m"), std::isfinite(route.clearance()) ? quantity(route.clearance(), "m") : "none near",
                     std::to_string(route.design.clips.size()), route.ok ? "kept" : refined.unmet.empty() ? refined.message : refined.unmet.front().text});
   }
   return card.text() + "\n" +
@@ -94,6 +107,32 @@ std::string describe_route(const RouteHandle& h) {
   card.row("nominal length", route.nominal_length, "m", std::to_string(route.nominal.bends()) + " bends");
   card.row("length", route.design.rod.length, "m").row("objective", route.objective, "m");
   return card.text();
+}
+
+/// In equilibrium where there is one, else nominal.
+ClearanceValue clearance_of_route(const RouteHandle& h) {
+  const route::Route& route = h.route();
+  if (route.refined.equilibrium && !route.refined.equilibrium->rods.empty()) {
+    const SceneEquilibrium& eq = *route.refined.equilibrium;
+    return clearance_value(eq, eq.rods.front(), route.refined.clearance);
+  }
+  const routing::CurveGap& gap = route.nominal_clearance.gap;
+  const bool near = !route.nominal_clearance.to.empty();
+  return {{near ? gap.value : std::numeric_limits<double>::infinity(), gap.s, gap.at, gap.on, gap.obstacle}, route.nominal_clearance.to,
+          near ? h.result->space->surroundings().clearance(gap.obstacle) : 0, false};
+}
+
+/// Arc length and frame of each clip.
+std::vector<Frame> clips_of(const RouteHandle& h) {
+  std::vector<Frame> frames;
+  for (const Hold& clip : h.route().design.clips) frames.push_back(clip.frame);
+  return frames;
+}
+
+std::vector<double> clip_places_of(const RouteHandle& h) {
+  std::vector<double> places;
+  for (const Hold& clip : h.route().design.clips) places.push_back(clip.at);
+  return places;
 }
 
 RefinedHandle refined(const RouteHandle& h) { return {std::shared_ptr<const routing::RefinementResult>(h.result, &h.route().refined)}; }
@@ -124,7 +163,13 @@ void bind_one_route(lua_State* L) {
       .property("refined", "", "Its refinement", refined)
       .property("equilibrium", "", "Settled; nil: none was asked for, or found",
                 [](const RouteHandle& h) { return std::const_pointer_cast<SceneEquilibrium>(h.route().refined.equilibrium); })
-      .property("min_bend_radius", "m", "In equilibrium", [](const RouteHandle& h) { return h.route().refined.min_bend_radius; })
+      .property("min_bend_radius", "m", "In equilibrium, else of the nominal route", [](const RouteHandle& h) { return bend_radius_of(h.route()); })
+      .property("clearance", "m", "Smallest gap outside the free ends, with .at, .on, .s; in equilibrium, else of the nominal route", clearance_of_route)
+      .property("preference", "m", "What clearance and preferences add to the length in its objective", [](const RouteHandle& h) {
+        return h.route().objective - (h.route().refined.equilibrium ? h.route().length() : h.route().nominal_length);
+      })
+      .property("clips", "", "Frames of the clips that hold it, from start to finish", clips_of)
+      .property("clip_places", "m", "Arc lengths of the clips", clip_places_of)
       .tostring(describe_route);
 }
 
@@ -138,6 +183,17 @@ void bind_route(lua_State* L) {
       .property("message", "", "How many, or what stood in the way", [](const RoutesHandle& r) { return r.result->message; })
       .property("seconds", "s", "Run time", [](const RoutesHandle& r) { return r.result->seconds; })
       .property("steps", "", "Name, seconds, counts of each", [](const RoutesHandle& r) { return r.result->steps; })
+      .property("front", "", "Those that no other one beats in both length and clearance, by rising length", [](const RoutesHandle& r) {
+        std::vector<RouteHandle> front;
+        for (const int i : route::pareto_front(r.result->routes)) front.push_back({r.result, i});
+        return front;
+      })
+      .method("chart", {.options = {option<std::string>("title", "", "Above it; default: \"Routes: length against clearance\"")},
+                        .does = "Clearance over length of all alternatives, with the line of those that no other one beats in both.",
+                        .example = example + "print(routes:chart())"},
+              [](const RoutesHandle& r, const Options& o) {
+                return front_chart(*r.result, o.maybe<std::string>("title").value_or("Routes: length against clearance"));
+              })
       .list([](const RoutesHandle& r) { return r.result->routes.size(); },
             [](const RoutesHandle& r, std::size_t i) { return RouteHandle{r.result, static_cast<int>(i)}; })
       .tostring([](const RoutesHandle& r) { return describe_routes(*r.result); });
@@ -145,7 +201,7 @@ void bind_route(lua_State* L) {
 
 void add_route_to(Module& method) {
   method.function("route",
-                  {.takes = {"scene"}, .options = route_schema(),
+                  {.takes = {"scene"}, .options = route_schema() + method_schema(),
                    .does = "A flexible object from one frame to another: a reference design of least cost that keeps what is demanded in equilibrium.",
                    .example = example + "print(routes.ok, #routes)  --> true\t1"},
                   [](lua_State* state, const Scene& scene, const Options& o) {

@@ -79,6 +79,12 @@ Schema Schema::with_list(const Kind& kind, std::string name, std::string text) &
   return std::move(*this);
 }
 
+Schema Schema::all_optional() const {
+  Schema optional = *this;
+  for (Option& entry : optional.entries_) entry.needed = false;
+  return optional;
+}
+
 const Option* Schema::find(std::string_view name) const {
   for (const Option& entry : entries_)
     if (entry.name == name) return &entry;

@@ -78,6 +78,9 @@ class Schema {
   /// Also takes entries without a name, each of this kind: view.new{s, eq, color = ...}. `name` and `text` describe them.
   Schema with_list(const Kind& kind, std::string name, std::string text) &&;
 
+  /// The same with nothing required: what may be given here or elsewhere.
+  Schema all_optional() const;
+
   const std::vector<Option>& entries() const { return entries_; }
   const std::optional<Option>& list() const { return list_; }
   bool empty() const { return entries_.empty() && !list_; }

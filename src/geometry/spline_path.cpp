@@ -51,18 +51,13 @@ struct Node {
   Frame frame;
 };
 
-// The frame at another place of the curve: reflected in the plane between the places, then in that between the
-// reflected tangent and the wanted one.
+// The frame at another place of the curve: reflected in the plane between the places, then in that between the reflected tangent
+// and the wanted one. Where the way there is nothing but rounding, its direction says nothing and the shortest turn must do.
 Frame carried(const Frame& from, const Vec3& to, const Vec3& tangent) {
-  const auto reflected = [](const Vec3& v, const Vec3& normal, double nn) -> Vec3 {
-    return v - (2 * normal.dot(v) / nn) * normal;
-  };
-  const Vec3 way = to - from.at;
-  Vec3 d1 = from.d1(), d3 = from.d3();
-  if (const double nn = way.squaredNorm(); nn > 0) d1 = reflected(d1, way, nn), d3 = reflected(d3, way, nn);
-  const Vec3 between = tangent - d3;
-  if (const double nn = between.squaredNorm(); nn > 0) d1 = reflected(d1, between, nn);
-  return Frame::looking(to, tangent, d1);
+  const Vec3 way = to - from.at, d1 = from.d1(), d3 = from.d3();
+  if (!(way.dot(d3) > 0.5 * way.norm())) return Frame::looking(to, tangent, shortest_turn(d3, tangent) * d1);
+  const auto reflected = [](const Vec3& v, const Vec3& normal) -> Vec3 { return v - (2 * normal.dot(v) / normal.squaredNorm()) * normal; };
+  return Frame::looking(to, tangent, reflected(reflected(d1, way), tangent - reflected(d3, way)));
 }
 
 class SplinePath final : public CurvePath {

@@ -28,6 +28,14 @@ Scene::Scene(const Vec3& gravity) : gravity_(gravity) {
   if (!all_finite(gravity)) throw UsageError("scene.new: 'gravity' must be finite numbers in m/s^2");
 }
 
+Scene Scene::without_rods() const {
+  Scene bare(gravity_);
+  bare.obstacles_ = obstacles_;
+  bare.surroundings_ = surroundings_;
+  bare.fields_ = fields();
+  return bare;
+}
+
 void Scene::check_free(std::string_view name, const char* who) const {
   const std::string text(name);
   for (const PlacedObstacle& obstacle : obstacles_)

@@ -27,6 +27,9 @@ class Scene {
 
   const Vec3& gravity() const { return gravity_; }
 
+  /// A scene with the same gravity and obstacles, whose trees and distance fields it shares.
+  Scene without_rods() const;
+
   /// Throws UsageError for an empty name, a name that is taken, or a clearance that is negative or not finite.
   void add(PlacedObstacle obstacle);
   /// Throws UsageError for a name that is taken.

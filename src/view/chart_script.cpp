@@ -131,6 +131,7 @@ struct Span {
 
 void add_references(const Chart& chart, std::string& text) {
   int tag = 1;
+  const bool named = chart.direct_labels;  // names beside the points: of lines that rise they are on the left where it is low
   for (const ChartReference& line : chart.references) {
     const bool level = line.across == ChartReference::Across::horizontal;
     if (line.at <= 0 && (level ? chart.log_y : chart.log_x)) continue;
@@ -141,8 +142,8 @@ void add_references(const Chart& chart, std::string& text) {
             " nohead front lw 1.6 dt 2 lc rgb '#a02020'\n";
     if (!line.label.empty())
       text += "set label " + std::to_string(tag) + " " + gnuplot_quoted(line.label) + " at " +
-              (level ? "graph 0.012, first " + at : "first " + at + ", graph 0.97") +
-              (level ? " left offset 0,0.55" : " left offset 0.6,0") + " front textcolor rgb '#a02020'\n";
+              (!level ? "first " + at + ", graph 0.97" : (named ? "graph 0.988, first " : "graph 0.012, first ") + at) +
+              (!level ? " left offset 0.6,0" : named ? " right offset 0,0.55" : " left offset 0,0.55") + " front textcolor rgb '#a02020'\n";
     ++tag;
   }
 }

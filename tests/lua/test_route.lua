@@ -60,6 +60,71 @@ check.case("weights: alternatives with more and more clearance", function()
   os.remove(path)
 end)
 
+check.case("the front: no alternative is beaten in both length and clearance; its chart", function()
+  local routes = method.route(scene_with_post(), asked{
+    weights = {{clearance = 0}, {clearance = 0.3}, {clearance = 1}, {clearance = 4}}, refine = false, preformed = true, end_straight = 20*mm})
+  check.is_true(routes.ok, routes.message)
+  local front = routes.front
+  check.is_true(#front >= 3)
+  for i = 2, #front do
+    check.is_true(front[i].length > front[i - 1].length)
+    check.is_true(front[i].clearance > front[i - 1].clearance)
+    check.is_true(front[i].preference > 0)
+  end
+  check.near(front[1].preference, 0, 1e-12)
+  check.near(front[1].clearance, 5*mm, 0.1*mm)
+  check.contains(tostring(front[1].clearance), "post")
+  local path = os.tmpname() .. ".svg"
+  routes:chart{title = "What clearance costs"}:save(path)
+  local file = assert(io.open(path))
+  local text = file:read("a")
+  file:close()
+  os.remove(path)
+  check.contains(text, "What clearance costs", "weight 4", "length [mm]")
+  check.raises(function() method.route(scene.new{}, asked{refine = false}):chart() end, "routes:chart", "no route")
+end)
+
+check.case("several objects: each an obstacle for the next", function()
+  local s = scene.new{}
+  local function one(name, along, more)
+    local object = {name = name, from = frame{at = -0.2 * along, along = along}, to = frame{at = 0.2 * along, along = along}}
+    for k, v in pairs(more or {}) do object[k] = v end
+    return object
+  end
+  local function all(more)
+    local options = {section = section, min_bend_radius = 50*mm, clearance = 3*mm, preformed = true, end_straight = 10*mm}
+    for k, v in pairs(more) do options[k] = v end
+    return method.route_all(s, options)
+  end
+  local set = all{one("feed", vec(1, 0, 0)), one("return", vec(0, 1, 0), {apart = 8*mm})}
+  check.is_true(set.ok, set.message)
+  check.equal(#set, 2)
+  check.equal(set[1].name, "feed")
+  check.near(set[1].route.length, 0.4, 1e-6)
+  check.is_true(set[2].route.length > 0.4)
+  check.near(set[2].route.clearance, 8*mm, 0.1*mm)
+  check.contains(tostring(set[2].route.clearance), "feed")
+  check.equal(#set[2].routes, 1)
+  check.equal(set.steps[2].name, "return")
+  check.contains(tostring(set), "feed", "return", "kept")
+  check.is_true(set:scene():solve().ok)
+  local path = os.tmpname() .. ".png"
+  local placed = set:scene()
+  view.new{placed, placed:solve()}:save(path, {size = {320, 240}, sheet = {"iso"}})
+  os.remove(path)
+
+  local boxed = all{one("feed", vec(1, 0, 0)), one("return", vec(0, 1, 0), {keep_in = {{-1, -1, -12*mm}, {1, 1, 12*mm}}}), refine = false}
+  check.equal(boxed.status, "infeasible")
+  check.contains(boxed.message, "'return'", "another order")
+  check.equal(#boxed, 2)
+  check.equal(boxed[2].route, nil)
+  check.raises(function() all{one("feed", vec(1, 0, 0)), one("feed", vec(0, 1, 0))} end, "feed", "a name of its own")
+  check.raises(function() all{{name = "a", from = frame{at = {0, 0, 0}, along = {1, 0, 0}}}} end, "object 1", "missing option 'to'")
+  check.raises(function() all{one("a", vec(1, 0, 0), {timeout = 1})} end, "object 1", "unknown option", "timeout")
+  check.raises(function() all{} end, "no objects")
+  check.equal(all{one("a", vec(1, 0, 0)), timeout = 1e-9}.status, "timeout")
+end)
+
 check.case("straight without load, or preformed; what gravity makes of it is said", function()
   local formed = method.route(scene_with_post(), asked{preformed = true, refine = false})
   check.is_true(formed.ok, formed.message)

@@ -225,6 +225,15 @@ CurveGap smallest_gap(const FreeSpace& space, const PccPoints& curve, double fre
   return search.best();
 }
 
+CurveClearance clearance_of(const FreeSpace& space, const PccPoints& curve, double free_start, double free_finish, double limit) {
+  CurveClearance clearance{smallest_gap(space, curve, free_start, free_finish, limit, FreeSpace::straight_tolerance), ""};
+  const int obstacle = clearance.gap.obstacle;
+  if (obstacle < 0) return clearance;
+  clearance.to = space.name(obstacle);
+  if (obstacle < space.surroundings().size()) clearance.gap.value += space.surroundings().clearance(obstacle);
+  return clearance;
+}
+
 bool is_clear(const FreeSpace& space, const PccPoints& curve, double free_ends, double tolerance) {
   const std::vector<PccPiece> pieces = pieces_of(curve);
   const Kept kept = kept_of(pieces, free_ends, free_ends);

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "base/run_context.h"
@@ -26,6 +27,14 @@ struct CurveGap {
 /// nowhere on the true curve is the gap smaller by more than `tolerance` (m), 0.1 mm where the centre line is inside a solid.
 CurveGap smallest_gap(const FreeSpace& space, const PccPoints& curve, double free_ends, double limit, double tolerance = 1e-5);
 CurveGap smallest_gap(const FreeSpace& space, const PccPoints& curve, double free_start, double free_finish, double limit, double tolerance);
+
+/// The smallest distance between the object's surface and an obstacle's (m; the clearance demanded is not taken off), and that
+/// obstacle's name; empty: nothing within `limit`.
+struct CurveClearance {
+  CurveGap gap;
+  std::string to;
+};
+CurveClearance clearance_of(const FreeSpace& space, const PccPoints& curve, double free_start, double free_finish, double limit);
 
 /// True: the gap is at least -tolerance everywhere outside the free ends, for certain. False: somewhere it is below -tolerance/2.
 /// Cheaper than smallest_gap.

@@ -84,11 +84,10 @@ Passages passages_of(const FreeSpace& space, const Options& options, const std::
 }
 
 void measure_clearance(const FreeSpace& space, const Options& options, Hose& hose) {
-  hose.clearance = routing::smallest_gap(space, hose.points, options.curve.free_ends, farthest_clearance);
-  const int obstacle = hose.clearance.obstacle;
-  if (obstacle < 0) return;
-  hose.clearance_to = space.name(obstacle);
-  if (obstacle < space.surroundings().size()) hose.clearance.value += space.surroundings().clearance(obstacle);
+  const double free = options.curve.free_ends;
+  routing::CurveClearance clearance = routing::clearance_of(space, hose.points, free, free, farthest_clearance);
+  hose.clearance = clearance.gap;
+  hose.clearance_to = std::move(clearance.to);
 }
 
 }  // namespace

@@ -42,10 +42,15 @@ struct Route {
   PccPoints nominal;
   double nominal_length = 0;         ///< m
   double lattice_length = 0;         ///< m, before smoothing
+  routing::CurveClearance nominal_clearance;  ///< of the nominal route, outside its free ends
   routing::Design design;            ///< refined
   routing::RefinementResult refined; ///< without an equilibrium where refinement was not asked for
   double objective = 0;              ///< m, of the nominal route, or in equilibrium where there is one
   bool ok = false;                   ///< keeps all that is demanded
+
+  /// In equilibrium where there is one, else nominal: m; the clearance is infinite where nothing is near.
+  double length() const { return design.rod.length; }
+  double clearance() const;
 };
 
 struct Result {

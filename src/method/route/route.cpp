@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/number_text.h"
 #include "base/units.h"
@@ -12,7 +13,9 @@ namespace tendril::route {
 
 namespace {
 
-constexpr double same_route = 25e-3;  // m
+// m: alternatives nearer to each other than this all along are one.
+constexpr double same_route = 2e-3;
+constexpr double farthest_clearance = 0.5;  // m, looked for
 
 void require(bool holds, const std::string& what) {
   if (!holds) throw UsageError("route: " + what);
@@ -62,6 +65,12 @@ void conclude(Result& r, const std::string& why, const RunContext& context) {
 
 }  // namespace
 
+double Route::clearance() const {
+  constexpr double none = std::numeric_limits<double>::infinity();
+  if (refined.equilibrium) return refined.clearance_to.empty() ? none : refined.clearance.value;
+  return nominal_clearance.to.empty() ? none : nominal_clearance.gap.value;
+}
+
 Result run(const Scene& scene, const Options& options, const RunContext& context) {
   check(options);
   Result r;
@@ -76,7 +85,10 @@ Result run(const Scene& scene, const Options& options, const RunContext& context
   for (const Weights& weights : options.weights) {
     if (context.stop()) break;
     std::optional<Route> route = nominal(search, weights, {}, nominal_count, why);
-    if (route && !is_known(r.routes, *route)) r.routes.push_back(std::move(*route));
+    if (!route || is_known(r.routes, *route)) continue;
+    const double free = options.curve.free_ends;
+    route->nominal_clearance = routing::clearance_of(*r.space, route->nominal, free, free, farthest_clearance);
+    r.routes.push_back(std::move(*route));
   }
   nominal_count.counts[2].second = static_cast<long>(r.routes.size());
   clock.end(nominal_count.name, nominal_count.counts);

@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
+#include <random>
 
 #include "base/error.h"
 #include "base/units.h"
@@ -147,6 +148,18 @@ TEST_CASE("a spline through points of a circle, a helix and at random", "[curve]
     CHECK(curve.bend_radius(0) > 1e6);
     CHECK(curve.bend_radius(curve.length()) > 1e6);
     CHECK(curve.bend_radius(curve.min_bend_radius_at()) == Approx(curve.min_bend_radius()).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("frames of a spline do not flip where its points are straight but for rounding", "[curve]") {
+  for (int seed = 0; seed < 50; ++seed) {
+    INFO("seed " << seed);
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<> noise(-1, 1);
+    std::vector<Vec3> points;
+    for (int i = 0; i <= 160; ++i) points.push_back({-0.2 + 0.4 * i / 160, 1e-17 * noise(random), 1e-17 * noise(random)});
+    const Curve curve = Curve::spline(points, {Vec3(1, 0, 0), Vec3(1, 0, 0)});
+    for (int i = 0; i <= 500; ++i) CHECK((curve.at(curve.length() * i / 500.0).d1() - Vec3(0, 0, 1)).norm() < 1e-9);
   }
 }
 
