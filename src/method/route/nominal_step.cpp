@@ -43,15 +43,25 @@ std::shared_ptr<const FreeSpace> Search::space(const Weights& weights, double mo
   return std::make_shared<const FreeSpace>(scene, demands, std::vector<Vec3>{ends.start, ends.finish}, margin, context);
 }
 
+std::shared_ptr<const Ground> Search::ground(const Weights& weights) const {
+  const std::lock_guard lock(making_);
+  std::shared_ptr<const Ground>& known = grounds_[weights.clearance / weights.length];
+  if (!known) {
+    const std::shared_ptr<const FreeSpace> around = space(weights);
+    known = std::make_shared<const Ground>(Ground{around, Roadmap(*around, options.grid, context)});
+  }
+  return known;
+}
+
 std::optional<Route> nominal(const Search& search, const Weights& weights, const Reserve& reserve, MethodStep& count,
                              std::string& why) {
-  const std::shared_ptr<const FreeSpace> space = search.space(weights, reserve.clearance);
-  const Roadmap roadmap(*space, search.options.grid, search.context);
+  const std::shared_ptr<const Ground> ground = search.ground(weights);
+  const auto space = reserve.clearance > 0 ? search.space(weights, reserve.clearance) : ground->space;
   routing::NominalOptions nominal_options;
   nominal_options.ends = search.ends;
   nominal_options.curve = search.options.curve;
   for (double& radius : nominal_options.curve.radii) radius *= reserve.bend_radius;
-  const NominalRoute found = routing::nominal_routing(*space, roadmap, search.lattice, nominal_options, search.context);
+  const NominalRoute found = routing::nominal_routing(*space, ground->roadmap, search.lattice, nominal_options, search.context);
   count.counts[0].second += found.states;
   count.counts[1].second += found.candidates;
   if (found.status != NominalRoute::Status::found) {

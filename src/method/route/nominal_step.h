@@ -1,16 +1,25 @@
 // Step 1 of routing for one choice of weights: a nominal route and the design that follows it.
 #pragma once
 
+#include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 
+#include "method/free_space/roadmap.h"
 #include "method/route/options.h"
 #include "scene/scene.h"
 
 namespace tendril::route {
 
-/// Everything that routes of one scene share. All that is referred to must outlive this.
+/// The grid of places for one choice of weights, with the space that it is about.
+struct Ground {
+  std::shared_ptr<const FreeSpace> space;
+  routing::Roadmap roadmap;
+};
+
+/// Everything that routes of one scene share. All that is referred to must outlive this. Safe from several threads.
 struct Search {
   const Scene& scene;
   const Options& options;
@@ -21,6 +30,13 @@ struct Search {
   Search(const Scene& scene, const Options& options, const RunContext& context);
 
   std::shared_ptr<const FreeSpace> space(const Weights& weights, double more_clearance = 0) const;
+  /// With what is demanded and no more. Made once; routes with something in reserve are searched on it too: what is free for them
+  /// is free here, and costs to the goal are no more.
+  std::shared_ptr<const Ground> ground(const Weights& weights) const;
+
+ private:
+  mutable std::mutex making_;
+  mutable std::map<double, std::shared_ptr<const Ground>> grounds_;  ///< by clearance for length
 };
 
 /// What a nominal route keeps beyond what is demanded, for gravity to take.

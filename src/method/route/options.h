@@ -32,7 +32,7 @@ struct Options {
   bool refine = true;
   routing::RefinementOptions refinement;     ///< of which weights, bend radius and clearance are overwritten
   int restarts = 3;                  ///< where refinement fails: with bend radius and clearance in reserve, then more weight on clearance
-  int max_clips = 0;                 ///< that may be added where restarts do not help
+  int max_clips = 0;                 ///< that may be added where one restart does not help; each restart again with clips
 };
 
 /// One design, nominal and in equilibrium.

@@ -7,6 +7,8 @@ namespace tendril::route {
 
 namespace {
 
+constexpr int restarts_before_clips = 1;  // where clips may be added: what one revised route does not mend, more seldom do
+
 routing::RefinementOptions refinement_of(const Options& options, const Weights& weights) {
   routing::RefinementOptions refinement = options.refinement;
   refinement.length_weight = 1;
@@ -35,60 +37,62 @@ Reserve revised(Reserve reserve, const Route& route) {
   return reserve;
 }
 
-/// Held by clips on its nominal route; where that bends too sharply or runs too near between them, on one with more in reserve.
-void clip(const Search& search, Route& route, MethodStep& count, MethodStep& nominal_count) {
-  Route trial = route;
-  Reserve reserve;
-  for (int i = 0;; ++i) {
+/// Held by clips on its nominal route, on that of the last restart, at last on such as have more in reserve.
+void clip(const Search& search, Route& route, const Route& last, MethodStep& count, MethodStep& nominal_count) {
+  const auto held = [&](const Route& on, int restarts) {
+    Route trial = on;
     routing::RefinementOptions refinement = refinement_of(search.options, trial.weights);
     refinement.most_clips = search.options.max_clips;
     trial.refined = routing::refine_clipped(search.scene, trial.design, refinement, search.context);
     trial.ok = trial.refined.ok;
+    trial.restarts = restarts;
     count.counts[0].second += trial.refined.evaluations;
-    if (trial.ok || i == 0) {
-      const int restarts = route.restarts + i;
-      if (trial.refined.equilibrium || !route.refined.equilibrium) route = trial;
-      route.restarts = restarts;
-    }
-    if (trial.ok || i >= search.options.restarts || search.context.stop()) return;
+    return trial;
+  };
+  Route best = held(route, route.restarts);
+  if (!best.ok && last.restarts > route.restarts)
+    if (Route other = held(last, last.restarts); other.ok) best = std::move(other);
+  Reserve reserve;
+  for (int i = 1; !best.ok && i <= search.options.restarts && !search.context.stop(); ++i) {
     reserve.bend_radius *= 1.2;
     reserve.clearance += 2e-3;
     std::string why;
     std::optional<Route> other = nominal(search, route.weights, reserve, nominal_count, why);
-    if (!other) return;
+    if (!other) break;
     count.counts[1].second += 1;
-    trial = std::move(*other);
+    if (Route trial = held(*other, last.restarts + i); trial.ok) best = std::move(trial);
   }
+  if (best.refined.equilibrium || !route.refined.equilibrium) route = std::move(best);
+  else if (!best.refined.message.empty()) route.refined.message += "; " + best.refined.message;
 }
 
 }  // namespace
 
 Route refined(const Search& search, Route route, MethodStep& count, MethodStep& nominal_count) {
   const Options& options = search.options;
-  const auto refine = [&](Route& r, int clips) {
-    routing::RefinementOptions refinement = refinement_of(options, r.weights);
-    refinement.most_clips = clips;
-    r.refined = routing::refine(search.scene, r.design, refinement, search.context);
+  const auto refine = [&](Route& r) {
+    r.refined = routing::refine(search.scene, r.design, refinement_of(options, r.weights), search.context);
     count.counts[0].second += r.refined.evaluations;
     r.ok = r.refined.ok;
   };
-  refine(route, 0);
+  refine(route);
   Route last = route;
   Reserve reserve;
-  for (int i = 1; !route.ok && i <= options.restarts && !search.context.stop(); ++i) {
+  const int restarts = options.max_clips > 0 ? std::min(options.restarts, restarts_before_clips) : options.restarts;
+  for (int i = 1; !route.ok && i <= restarts && !search.context.stop(); ++i) {
     Weights weights = last.weights;
     reserve = revised(reserve, last);
     if (i > 1) weights.clearance = std::max(2 * weights.clearance, weights.length);
     std::string why;
     std::optional<Route> other = nominal(search, weights, reserve, nominal_count, why);
     if (!other) break;
-    refine(*other, 0);
+    refine(*other);
     other->restarts = i;
     count.counts[1].second += 1;
     last = *other;
     if (other->ok || (other->refined.equilibrium && !route.refined.equilibrium)) route = std::move(*other);
   }
-  if (!route.ok && options.max_clips > 0 && !search.context.stop()) clip(search, route, count, nominal_count);
+  if (!route.ok && options.max_clips > 0 && !search.context.stop()) clip(search, route, last, count, nominal_count);
   if (route.refined.equilibrium) route.objective = route.refined.objective;
   route.design = route.refined.design;
   return route;
