@@ -66,7 +66,7 @@ RefinementOptions demands_for(const route::Options& options) {
   demands.clearance = options.space.clearance;
   demands.free_ends = options.curve.free_ends;
   demands.adjust.from_tilt = demands.adjust.to_tilt = true;
-  demands.adjust.clips = !options.preformed;
+  demands.adjust.clips = true;
   demands.most_clips = options.max_clips;
   return demands;
 }
@@ -76,21 +76,19 @@ struct Task {
   RefinementOptions demands;
 };
 
-/// Where refinement begins: the nominal routes' designs, straight ones with the clips that they need.
+/// Where refinement begins: the nominal routes' designs, with the clips that they need.
 std::vector<Task> tasks(bool preformed) {
   std::vector<Task> all;
+  const RunContext context;
   for (const Ends& pair : ends()) {
     route::Options options = options_for(pair, preformed);
     options.refine = false;
     const route::Result nominal = route::run(bay(), options);
     if (nominal.routes.empty()) continue;
     Task task{nominal.routes.front().design, demands_for(options)};
-    if (!preformed) {
-      const RunContext context;
-      const auto clipped = clipped_along_way(SurroundingsByUse(bay(), task.demands), bay().gravity(), task.design, task.demands, context);
-      if (!clipped || !clipped->found) continue;
+    if (const auto clipped = clipped_along_way(SurroundingsByUse(bay(), task.demands), bay().gravity(), task.design, task.demands, context);
+        clipped && clipped->found)
       task.design = clipped->design;
-    }
     task.demands.most_clips = 0;
     if (refine(bay(), task.design, task.demands).ok) all.push_back(task);
   }
