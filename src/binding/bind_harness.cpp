@@ -1,11 +1,13 @@
 // method.harness: a branched harness between several connections.
 #include <limits>
+#include <map>
 
 #include "base/units.h"
 #include "binding/bind_method.h"
 #include "binding/card.h"
 #include "binding/method_options.h"
 #include "binding/method_steps.h"
+#include "binding/routing_options.h"
 #include "binding/scene_classes.h"
 #include "method/route/harness_routing.h"
 
@@ -24,12 +26,12 @@ struct HarnessBranchHandle {
 
 template <> inline constexpr const char* class_name<HarnessHandle> = "harness";
 template <> inline constexpr const char* class_name<HarnessBranchHandle> = "harness_branch";
+template <> inline constexpr const char* class_name<routing::HarnessClip> = "harness_clip";
 template <> inline constexpr const char* class_name<routing::HarnessJunction> = "harness_junction";
 
 namespace {
 
 using routing::HarnessResult;
-using BoxOfCorners = std::array<Vec3, 2>;
 
 Schema harness_schema() {
   return Schema{
@@ -41,13 +43,17 @@ Schema harness_schema() {
              option<double>("min_bend_radius", "m", "Of the centre line").required().above(0),
              option<double>("min_straight", "m", "Least straight between two bends").at_least(0).preset(0),
              option<double>("end_straight", "m", "Least straight at both ends of every branch").at_least(0).preset(0),
-             option<double>("clearance", "m", "Least gap to every obstacle; an obstacle's own larger one stands").at_least(0).preset(0),
-             option<double>("free_ends", "m", "Length from the connections within which no gap is asked for").at_least(0).preset(0),
-             option<BoxOfCorners>("keep_in", "m", "{corner, corner}: the whole harness stays within this box"),
+             option<std::map<std::string, double>>("weights", "", "{length =, clearance =}: what a metre costs, and what it costs more next to obstacles"),
              option<double>("grid", "m", "Step of the search").above(0).at_most(1).preset(20 * units::mm),
              option<bool>("settle", "", "Find its equilibrium under gravity").preset(true),
+             option<bool>("refine", "", "Where it settles: adjust lengths, directions at branch points and clips, so that it keeps at rest what its "
+                                        "route keeps").preset(true),
+             option<int>("clips", "", "That may be used where lengths and directions do not help, over the whole harness").at_least(0).at_most(1000).preset(0),
+             option<double>("clip_reach", "m", "From the harness's surface to what it is clipped to, at most").at_least(0).preset(50 * units::mm),
+             option<double>("max_stretch", "", "Of a refined branch at rest, as a share of its length: a harness is laid, not strung").above(0).at_most(1).preset(2e-3),
+             option<int>("restarts", "", "From routes with bend radius and clearance in reserve, where refinement is not enough").at_least(0).at_most(20).preset(2),
          } +
-         method_schema();
+         surroundings_schema() + method_schema();
 }
 
 routing::HarnessOptions harness_options(const Options& o) {
@@ -69,12 +75,21 @@ routing::HarnessOptions harness_options(const Options& o) {
   options.min_bend_radius = o.get<double>("min_bend_radius");
   options.min_straight = o.get<double>("min_straight");
   options.end_straight = o.get<double>("end_straight");
-  options.space.clearance = o.get<double>("clearance");
   options.free_ends = o.get<double>("free_ends");
-  if (const auto box = o.maybe<BoxOfCorners>("keep_in"))
-    options.space.keep_in = Eigen::AlignedBox3d((*box)[0].cwiseMin((*box)[1]), (*box)[0].cwiseMax((*box)[1]));
+  read_surroundings(o, options.space);
+  if (o.has("weights")) {
+    const CostWeights weights = cost_weights(o, o.get<std::map<std::string, double>>("weights"));
+    if (!(weights.length > 0 && weights.clearance >= 0))
+      throw UsageError("method.harness: 'weights': the weight of length must be above 0 and that of clearance at least 0");
+    options.space.clearance_weight = weights.clearance / weights.length;
+  }
   options.grid = o.get<double>("grid");
   options.equilibrium = o.get<bool>("settle");
+  options.refine = o.get<bool>("refine");
+  options.max_clips = o.get<int>("clips");
+  options.clip_reach = o.get<double>("clip_reach");
+  options.max_stretch = o.get<double>("max_stretch");
+  options.restarts = o.get<int>("restarts");
   return options;
 }
 
@@ -83,17 +98,13 @@ std::string end_name(const HarnessResult& r, const routing::HarnessEnd& end) {
   return r.options.names.empty() ? std::to_string(end.number + 1) : r.options.names[end.number];
 }
 
-/// What the harness keeps as routed and no longer once gravity has settled it, in words.
-std::vector<std::string> settled_misses(const HarnessResult& r) {
-  std::vector<std::string> misses;
-  if (!r.equilibrium) return misses;
-  for (const routing::HarnessBranch& b : r.branches) {
-    if (b.settled_bend_radius < r.options.min_bend_radius * (1 - 1e-6))
-      misses.push_back(b.name + ": bend radius " + quantity(b.settled_bend_radius, "m") + ", " + quantity(r.options.min_bend_radius, "m") + " demanded");
-    if (b.settled_clearance.value < r.options.space.clearance - 1e-5)
-      misses.push_back(b.name + ": gap " + quantity(b.settled_clearance.value, "m") + ", " + quantity(r.options.space.clearance, "m") + " demanded");
+std::string clips_table(const HarnessResult& r) {
+  std::vector<std::vector<std::string>> rows;
+  for (std::size_t i = 0; i < r.design.clips.size(); ++i) {
+    const routing::HarnessClip& clip = r.design.clips[i];
+    rows.push_back({std::to_string(i + 1), r.branches[clip.branch].name, quantity(clip.at, "m"), clip.obstacle, quantity(clip.force, "N")});
   }
-  return misses;
+  return table_text({"clip", "branch", "at", "on", "force"}, rows);
 }
 
 std::string describe_harness(const HarnessHandle& h) {
@@ -102,6 +113,10 @@ std::string describe_harness(const HarnessHandle& h) {
   card.row("status", r.ok ? "solved" : name_of(r.status), r.message).row("time", r.seconds, "s");
   card.row("harness length", r.harness_length, "m").row("cable length", r.cable_length, "m");
   card.row("branches", std::to_string(r.branches.size())).row("junctions", std::to_string(r.junctions.size()));
+  card.row("clips", std::to_string(r.design.clips.size()), r.options.max_clips > 0 ? "of " + std::to_string(r.options.max_clips) + " allowed" : "");
+  card.row("cost", r.cost, "m", "by weights and wires");
+  if (r.options.space.clearance_weight > 0 || r.options.space.preference > 0) card.row("preference", r.preference, "m", "integral along the route");
+  if (r.restarts > 0) card.row("restarts", std::to_string(r.restarts));
   card.row("in collision", r.length_in_collision, "m", r.equilibrium ? "settled" : "as routed");
   std::vector<std::vector<std::string>> rows;
   for (const routing::HarnessBranch& b : r.branches)
@@ -111,8 +126,9 @@ std::string describe_harness(const HarnessHandle& h) {
   std::string text = card.text();
   if (!rows.empty())
     text += "\n" + table_text({"branch", "from", "to", "wires", "length", "bend radius", "clearance", "settled bend radius", "settled clearance"}, rows);
+  if (!r.design.clips.empty()) text += "\n" + clips_table(r);
   for (const std::string& miss : r.misses) text += "\nnot kept: " + miss;
-  for (const std::string& miss : settled_misses(r)) text += "\nnot kept once settled: " + miss;
+  for (const std::string& miss : r.settled_misses) text += "\nnot kept once settled: " + miss;
   return text;
 }
 
@@ -143,6 +159,7 @@ void bind_parts(lua_State* L) {
       .property("wires", "", "Numbers of the wires in it", [](const HarnessBranchHandle& h) { return counted_from_one(h.branch().wires); })
       .property("curve", "", "Its route", [](const HarnessBranchHandle& h) { return h.branch().points.curve(); })
       .property("length", "m", "Of its route", [](const HarnessBranchHandle& h) { return h.branch().length; })
+      .property("rod_length", "m", "Of its rod, unstressed", [](const HarnessBranchHandle& h) { return h.harness.result->design.lengths[h.index]; })
       .property("min_bend_radius", "m", "Of its route", [](const HarnessBranchHandle& h) { return h.branch().min_bend_radius; })
       .property("clearance", "m", "Smallest gap of its route, certified", clearance_of_branch)
       .property("settled_bend_radius", "m", "In equilibrium", [](const HarnessBranchHandle& h) { return h.branch().settled_bend_radius; })
@@ -151,6 +168,13 @@ void bind_parts(lua_State* L) {
         return h.branch().name + ": " + end_name(*h.harness.result, h.branch().from) + " to " + end_name(*h.harness.result, h.branch().to) + ", " +
                quantity(h.branch().length, "m");
       });
+  Class<routing::HarnessClip>(L, "A clip that holds a branch of a harness on its route")
+      .property("branch", "", "Number of the branch", [](const routing::HarnessClip& c) { return c.branch + 1; })
+      .property("at", "m", "Arc length along the unstressed rod", [](const routing::HarnessClip& c) { return c.at; })
+      .property("route_at", "m", "Arc length along the route", [](const routing::HarnessClip& c) { return c.route_at; })
+      .property("frame", "", "Of the section that it holds", [](const routing::HarnessClip& c) { return c.frame; })
+      .property("obstacle", "", "To which it is fastened", [](const routing::HarnessClip& c) { return c.obstacle; })
+      .property("force", "N", "That it bears at rest", [](const routing::HarnessClip& c) { return c.force; });
   Class<routing::HarnessJunction>(L, "A branch point of a routed harness")
       .property("frame", "", "As routed; along the trunk", [](const routing::HarnessJunction& j) { return j.frame; })
       .property("settled", "", "In equilibrium", [](const routing::HarnessJunction& j) { return j.settled; })
@@ -175,13 +199,18 @@ void bind_harness(lua_State* L) {
       })
       .property("junctions", "", "List of branch points", [](const HarnessHandle& h) { return h.result->junctions; })
       .property("misses", "", "What is not kept, in words", [](const HarnessHandle& h) { return h.result->misses; })
-      .property("settled_misses", "", "What the route keeps, but not the settled harness, in words", [](const HarnessHandle& h) { return settled_misses(*h.result); })
+      .property("settled_misses", "", "What the route keeps, but the harness at rest does not, in words", [](const HarnessHandle& h) { return h.result->settled_misses; })
       .property("harness_length", "m", "Of all branches", [](const HarnessHandle& h) { return h.result->harness_length; })
       .property("cable_length", "m", "Over all wires", [](const HarnessHandle& h) { return h.result->cable_length; })
+      .property("wire_lengths", "m", "By wire, from connection to connection along the route", [](const HarnessHandle& h) { return h.result->wire_lengths; })
+      .property("clips", "", "List of clips, by branch", [](const HarnessHandle& h) { return h.result->design.clips; })
+      .property("cost", "m", "Of the route: what a metre costs, by weights, preferences and wires, along all branches", [](const HarnessHandle& h) { return h.result->cost; })
+      .property("preference", "m", "Integral along the route of what clearance weight and preferences make a metre cost more", [](const HarnessHandle& h) { return h.result->preference; })
+      .property("restarts", "", "That refinement took", [](const HarnessHandle& h) { return h.result->restarts; })
       .property("length_in_collision", "m", "Settled, where it penetrates an obstacle", [](const HarnessHandle& h) { return h.result->length_in_collision; })
       .property("equilibrium", "", "Rods named as the branches; nil: none",
                 [](const HarnessHandle& h) { return std::const_pointer_cast<SceneEquilibrium>(h.result->equilibrium); })
-      .method("scene", {.does = "A new scene: the obstacles, and the harness as rods joined at its branch points.",
+      .method("scene", {.does = "A new scene: the obstacles, and the harness as rods joined at its branch points and held by its clips.",
                         .example = example + "print(h:scene())"},
               [](const HarnessHandle& h) { return std::make_shared<Scene>(routing::scene_of(*h.scene, *h.result)); })
       .tostring(describe_harness);

@@ -20,13 +20,8 @@ namespace {
 using OneOrMany = std::variant<std::map<std::string, double>, std::vector<std::map<std::string, double>>>;
 
 route::Weights weights_of(const Options& o, const std::map<std::string, double>& given) {
-  route::Weights weights;
-  for (const auto& [name, value] : given) {
-    if (name == "length") weights.length = value;
-    else if (name == "clearance") weights.clearance = value;
-    else throw UsageError(o.who() + ": 'weights': unknown name '" + name + "', expected 'length' and 'clearance'");
-  }
-  return weights;
+  const CostWeights weights = cost_weights(o, given);
+  return {weights.length, weights.clearance};
 }
 
 }  // namespace

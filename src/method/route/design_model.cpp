@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "method/route/mesh_place.h"
 #include "method/route/route_guess.h"
 #include "scene/system_sensitivity.h"
 #include "statics/solve.h"
@@ -19,17 +20,6 @@ constexpr double share_margin = 1e-5;    // of bend radii, tensions and strains
 constexpr double seen_bend = 0.5, seen_room = 0.05;  // slacks and m beyond which nothing is looked at more closely
 constexpr std::size_t most_rooms = 24;
 constexpr int most_iterations = 150;     // from a design close by; a trial that needs more is not worth it
-
-/// Places that move with the mesh when lengths change: 3.25 is a quarter of the way from vertex 3 to vertex 4.
-double mesh_place(const std::vector<double>& s, double at) {
-  const auto after = std::upper_bound(s.begin() + 1, s.end() - 1, at);
-  const auto k = after - s.begin() - 1;
-  return static_cast<double>(k) + std::clamp((at - s[k]) / (s[k + 1] - s[k]), 0.0, 1.0);
-}
-double arc_length(const std::vector<double>& s, double place) {
-  const std::size_t k = std::min(static_cast<std::size_t>(place), s.size() - 2);
-  return s[k] + std::clamp(place - static_cast<double>(k), 0.0, 1.0) * (s[k + 1] - s[k]);
-}
 
 /// f(gap) of the cost, and its slope.
 std::pair<double, double> nearness(double gap, double range) {
@@ -248,7 +238,7 @@ VectorXd DesignModel::derivatives(const Measure& measure, const SystemSensitivit
 
 Room DesignModel::room_at(const State& state, double place) const {
   const GapProfile profile(around_->demanded, outside_->rods.front().equilibrium, seen_room);
-  return profile.at(state.problem().rod, state.rod(), arc_length(state.rod().s, place));
+  return profile.at(state.problem().rod, state.rod(), arc_length_at(state.rod().s, place));
 }
 
 double DesignModel::slack_of(const Tag& tag, const State& state) const {

@@ -8,8 +8,10 @@
 #include "base/units.h"
 #include "method/free_space/bottleneck.h"
 #include "method/preform/end_lead.h"
+#include "method/route/harness_refinement.h"
 #include "method/route/harness_scene.h"
 #include "method/route/harness_smoothing.h"
+#include "method/route/harness_variables.h"
 
 namespace tendril::routing {
 
@@ -45,11 +47,15 @@ void check(const HarnessOptions& options) {
           "the bend radius is " + mm(options.min_bend_radius) + ", more than the section's own radius of " + mm(options.section.radius()) +
               " expected; bend radii are those of the centre line");
   const std::pair<const char*, double> lengths[] = {{"min_straight", options.min_straight}, {"end_straight", options.end_straight},
-                                                    {"free_ends", options.free_ends}, {"min_branch", options.min_branch}};
+                                                    {"free_ends", options.free_ends}, {"min_branch", options.min_branch},
+                                                    {"clip_reach", options.clip_reach}};
   for (const auto& [name, value] : lengths)
     require(std::isfinite(value) && value >= 0, std::string("'") + name + "' is " + number_text(value) + " m, a length of at least 0 expected");
   require(options.max_bends >= 2 && options.max_bends <= 30, "'max_bends' is " + std::to_string(options.max_bends) + ", 2 to 30 expected");
   require(std::isfinite(options.grid) && options.grid > 0, "'grid' is " + number_text(options.grid) + " m, a length above 0 expected");
+  require(options.max_clips >= 0 && options.max_clips <= 1000, "'clips' is " + std::to_string(options.max_clips) + ", 0 to 1000 expected");
+  require(options.restarts >= 0 && options.restarts <= 20, "'restarts' is " + std::to_string(options.restarts) + ", 0 to 20 expected");
+  require(std::isfinite(options.max_stretch) && options.max_stretch > 0, "'max_stretch' is " + number_text(options.max_stretch) + ", a share above 0 expected");
   require(std::isfinite(options.segment) && options.segment > 0, "'segment' is " + number_text(options.segment) + " m, a length above 0 expected");
 }
 
@@ -88,10 +94,10 @@ class HarnessRouting {
     r_.status = Status::solved;
     open();
     for (const auto step : {&HarnessRouting::find_tree, &HarnessRouting::smooth_branches, &HarnessRouting::improve_junctions,
-                            &HarnessRouting::certify, &HarnessRouting::come_to_rest})
+                            &HarnessRouting::certify})
       if (!ended()) (this->*step)();
     ended();
-    conclude();
+    r_.seconds = steps_.seconds();
   }
 
  private:
@@ -190,11 +196,19 @@ class HarnessRouting {
   void certify() {
     for (std::size_t b = 0; b < shape_.branches.size(); ++b) take_branch(static_cast<int>(b));
     for (const ShapeJunction& j : shape_.junctions) r_.junctions.push_back({Frame::looking(j.at, j.leaving[0]), j.branches, {}});
+    r_.design = design_as_routed(r_);
+    measure_wires();
     steps_.end("certificate", {{"violations", long(r_.misses.size())}});
     if (r_.misses.empty()) return;
     refuse("no harness was found that keeps all that is demanded; the nearest one has " + r_.misses.front());
   }
 
+  void measure_wires() {
+    const int wires = static_cast<int>(options_.wires.empty() ? options_.connections.size() - 1 : options_.wires.size());
+    r_.wire_lengths.assign(wires, 0.0);
+    for (const HarnessBranch& branch : r_.branches)
+      for (const int wire : branch.wires) r_.wire_lengths[wire] += branch.length;
+  }
   void take_branch(int number) {
     const ShapeBranch& shape = shape_.branches[number];
     HarnessBranch branch;
@@ -202,6 +216,7 @@ class HarnessRouting {
     branch.from = shape.from;
     branch.to = shape.to;
     branch.wires = shape.wires;
+    branch.factor = shape.factor;
     branch.points = shape.points;
     branch.length = shape.points.length();
     branch.violations = missed_[number];
@@ -226,30 +241,6 @@ class HarnessRouting {
     r_.branches.push_back(std::move(branch));
   }
 
-  void come_to_rest() {
-    if (!options_.equilibrium) return;
-    settle(scene_, r_, context_);
-    const SceneEquilibrium& eq = *r_.equilibrium;
-    steps_.end("equilibrium", {{"rods", long(eq.rods.size())}, {"iterations", eq.iterations()}});
-    if (eq.ok()) return;
-    r_.status = eq.status();
-    if (eq.status() == Status::stalled || eq.status() == Status::infeasible) r_.message = "the route keeps all that is demanded, but no equilibrium was found: " + eq.message();
-  }
-
-  void conclude() {
-    r_.ok = r_.status == Status::solved;
-    r_.seconds = steps_.seconds();
-    if (r_.status == Status::timeout || r_.status == Status::cancelled)
-      r_.message = std::string(r_.status == Status::timeout ? "out of time" : "cancelled") +
-                   (r_.branches.empty() ? "; no route yet" : "; the route is there, its equilibrium is not");
-    if (!r_.ok) return;
-    const auto count = [](std::size_t n, const char* one, const char* more) { return std::to_string(n) + " " + (n == 1 ? one : more); };
-    r_.message = count(r_.branches.size(), "branch", "branches") + ", " + count(r_.junctions.size(), "junction", "junctions") + ", " +
-                 number_text(std::round(r_.harness_length / units::mm)) + " mm of harness, " +
-                 number_text(std::round(r_.cable_length / units::mm)) + " mm of wires";
-    if (r_.length_in_collision > 0) r_.message += "; at rest " + mm(r_.length_in_collision) + " of it penetrate obstacles";
-  }
-
   const Scene& scene_;
   HarnessResult& r_;
   const HarnessOptions& options_;
@@ -260,14 +251,98 @@ class HarnessRouting {
   ShapeViolations missed_;
 };
 
+HarnessResult routed(const Scene& scene, const HarnessOptions& options, const RunContext& context) {
+  HarnessResult result;
+  result.options = options;
+  HarnessRouting(scene, result, context).run();
+  return result;
+}
+
+/// A routed harness at rest, refined where that is asked for.
+void come_to_rest(const Scene& scene, HarnessResult& r, const RunContext& context) {
+  StepClock steps(r.steps);
+  if (r.options.refine) refine(scene, r, context);
+  else settle(scene, r, context);
+  const SceneEquilibrium& eq = *r.equilibrium;
+  if (r.options.refine) steps.end("refinement", {{"equilibria", r.equilibria}, {"clips", long(r.design.clips.size())}});
+  else steps.end("equilibrium", {{"rods", long(eq.rods.size())}, {"iterations", eq.iterations()}});
+  r.seconds += steps.seconds();
+  if (eq.ok()) return;
+  r.status = eq.status();
+  if (eq.status() == Status::stalled || eq.status() == Status::infeasible)
+    r.message = "the route keeps all that is demanded, but no equilibrium was found: " + eq.message();
+}
+
+/// What is demanded of the next route, with in reserve what gravity took from this one and a little for the next.
+HarnessOptions with_reserve(HarnessOptions options, const HarnessResult& r) {
+  for (const HarnessBranch& branch : r.branches) {
+    const double radius = r.options.min_bend_radius, gap = r.options.space.clearance;
+    if (branch.settled_bend_radius < radius)
+      options.min_bend_radius = std::max(options.min_bend_radius, radius * std::min(1.5, 1.05 * radius / std::max(branch.settled_bend_radius, 1e-9)));
+    if (branch.settled_clearance.obstacle >= 0 && branch.settled_clearance.value < gap)
+      options.space.clearance = std::max(options.space.clearance, gap + std::min(0.02, 1.5 * (gap - branch.settled_clearance.value) + 1e-3));
+  }
+  return options;
+}
+
+/// Where the harness at rest misses something, other routes.
+void restart(const Scene& scene, HarnessResult& best, const RunContext& context) {
+  const HarnessOptions demanded = best.options;
+  HarnessOptions stricter = demanded;
+  HarnessResult last = best;
+  for (int i = 1; i <= demanded.restarts && last.missed_share > 0 && !context.stop(); ++i) {
+    const HarnessOptions before = stricter;
+    stricter = with_reserve(stricter, last);
+    if (stricter.min_bend_radius == before.min_bend_radius && stricter.space.clearance == before.space.clearance) return;
+    HarnessResult other = routed(scene, stricter, context);
+    best.seconds += other.seconds;
+    if (other.status != Status::solved) return;
+    const double begun = other.seconds;
+    other.options = demanded;
+    other.space = best.space;
+    come_to_rest(scene, other, context);
+    best.seconds += other.seconds - begun;
+    last = other;
+    other.restarts = i;
+    if (!(missed_at_rest(other) < missed_at_rest(best))) continue;
+    other.seconds = best.seconds;
+    other.equilibria += best.equilibria;
+    best = std::move(other);
+  }
+}
+
+std::string counted(std::size_t n, const char* one, const char* more) { return std::to_string(n) + " " + (n == 1 ? one : more); }
+
+void conclude(HarnessResult& r, const RunContext& context) {
+  if (const auto stopped = context.stop(); stopped && r.status == Status::solved && !(r.equilibrium && r.equilibrium->ok())) r.status = *stopped;
+  r.ok = r.status == Status::solved;
+  if (r.status == Status::timeout || r.status == Status::cancelled)
+    r.message = std::string(r.status == Status::timeout ? "out of time" : "cancelled") +
+                (r.branches.empty() ? "; no route yet" : "; the route is there, its equilibrium is not");
+  if (!r.ok) return;
+  r.message = counted(r.branches.size(), "branch", "branches") + ", " + counted(r.junctions.size(), "junction", "junctions") + ", " +
+              number_text(std::round(r.harness_length / units::mm)) + " mm of harness, " +
+              number_text(std::round(r.cable_length / units::mm)) + " mm of wires";
+  if (r.options.max_clips > 0 && r.equilibrium)
+    r.message += ", " + std::to_string(r.design.clips.size()) + " of " + counted(r.options.max_clips, "clip", "clips");
+  if (r.length_in_collision > 0) r.message += "; at rest " + mm(r.length_in_collision) + " of it penetrate obstacles";
+  if (!r.settled_misses.empty()) r.message += "; at rest not all is kept: " + r.settled_misses.front();
+  if (!r.refinement.empty() && r.missed_share > 0) r.message += " (" + r.refinement + ")";
+}
+
 }  // namespace
+
 
 HarnessResult route_harness(const Scene& scene, const HarnessOptions& options, const RunContext& context) {
   check(options);
-  HarnessResult result;
-  result.options = options;
-  result.options.space.radius = options.section.radius();
-  HarnessRouting(scene, result, context).run();
+  HarnessOptions own = options;
+  own.space.radius = options.section.radius();
+  HarnessResult result = routed(scene, own, context);
+  if (result.status == Status::solved && own.equilibrium) {
+    come_to_rest(scene, result, context);
+    if (own.refine && result.status == Status::solved) restart(scene, result, context);
+  }
+  conclude(result, context);
   return result;
 }
 

@@ -6,6 +6,8 @@
 //   improvement  all branches, junction places and directions together, at the least cost that keeps what is demanded
 //   certificate  bend radius and clearance along the true curves
 //   equilibrium  rods joined at rigid junctions, held at the connections, under gravity and in contact, begun from the route
+//   refinement   unstressed lengths, directions at junctions and clips, so that what the route keeps is kept at rest as well
+//                (harness_refinement.h)
 #pragma once
 
 #include <array>
@@ -44,6 +46,13 @@ struct HarnessOptions {
   bool equilibrium = true;                 ///< settle it
   double segment = 15e-3;                  ///< m, about the length of the rods' segments
   SolveOptions solve;
+
+  /// Where the harness at rest misses something: adjust it. Settled harnesses only.
+  bool refine = true;
+  double max_stretch = 2e-3;               ///< of a refined branch's centre line at rest: a harness is laid, not strung
+  int max_clips = 0;                       ///< on obstacles that take clips (PlacedObstacle::clip), over the whole harness
+  double clip_reach = 0.05;                ///< m, from the harness's surface to what it is clipped to
+  int restarts = 2;                        ///< with bend radius and clearance in reserve, where that is not enough
 };
 
 /// Where a branch ends.
@@ -52,10 +61,27 @@ struct HarnessEnd {
   int number = 0;                          ///< of connections or junctions, from 0
 };
 
+/// Holds the section of a branch in the frame that it has on the route.
+struct HarnessClip {
+  int branch = 0;
+  double route_at = 0, at = 0;             ///< m, along the route and along the unstressed rod
+  Frame frame;
+  std::string obstacle;                    ///< to which it is fastened
+  double force = 0;                        ///< N, that it bears at rest
+};
+
+/// What the harness is built to.
+struct HarnessDesign {
+  std::vector<double> lengths;             ///< m, by branch, of the unstressed rods
+  std::vector<std::vector<Frame>> sections;///< by junction, in the order of its branches: their ends seen from the junction
+  std::vector<HarnessClip> clips;          ///< by branch, then rising
+};
+
 struct HarnessBranch {
   std::string name;                        ///< of its rod
   HarnessEnd from, to;
   std::vector<int> wires;                  ///< numbers of the wires in it, rising
+  double factor = 1;                       ///< what a metre of it costs; see harness_tree.h
   PccPoints points;                        ///< the route
   double length = 0;                       ///< m
   CurveGap clearance;                      ///< of the route: m, between the surfaces, outside the free ends
@@ -90,8 +116,16 @@ struct HarnessResult {
   double cable_length = 0;                 ///< m, over all wires
   double cost = 0;                         ///< m, as harness_tree.h weighs, of the route
   double preference = 0;                   ///< m: integral of FreeSpace::cost - 1 along the route
-  int clips = 0;
+  std::vector<double> wire_lengths;        ///< m, from connection to connection
   double length_in_collision = 0;          ///< m of the settled harness (else of the route) where it penetrates an obstacle
+
+  /// Without refinement the route's lengths and directions, and no clips.
+  HarnessDesign design;
+  std::vector<std::string> settled_misses; ///< "branch 2: gap 3.1 mm, 5 mm demanded": at rest, though the route keeps it
+  double missed_share = 0;                 ///< sum over these, as shares of what is demanded
+  int equilibria = 0;                      ///< that refinement looked at
+  int restarts = 0;                        ///< that it took
+  std::string refinement;                  ///< what there is to say about it
 
   HarnessOptions options;
   std::shared_ptr<const FreeSpace> space;

@@ -5,7 +5,7 @@
 
 namespace tendril::routing {
 
-/// Equilibrium of scene_of(), begun from the route; fills what the result says about it.
-void settle(const Scene& scene, HarnessResult& harness, const RunContext& context = {});
+/// Equilibrium of scene_of(), begun from the route, or from an equilibrium of a similar design; fills what the result says about it.
+void settle(const Scene& scene, HarnessResult& harness, const RunContext& context = {}, const SceneEquilibrium* from = nullptr);
 
 }  // namespace tendril::routing
