@@ -77,10 +77,16 @@ void report(benchmark::State& state, const HarnessResult& r) {
   state.counters["harness_mm"] = 1e3 * r.harness_length;
   state.counters["cable_mm"] = 1e3 * r.cable_length;
   state.counters["junctions"] = static_cast<double>(r.junctions.size());
+  state.counters["clips"] = static_cast<double>(r.design.clips.size());
+  state.counters["restarts"] = r.restarts;
+  state.counters["missed_at_rest"] = r.missed_share;
 }
 
+/// Whether refined, and with how many clips at most.
 void harness_in_bay(benchmark::State& state) {
-  const HarnessOptions six = options(6);
+  HarnessOptions six = options(6);
+  six.refine = state.range(1) > 0;
+  six.max_clips = static_cast<int>(state.range(2));
   RunContext context;
   context.threads = static_cast<int>(state.range(0));
   HarnessResult r = route_harness(bay(), six, context);
@@ -121,5 +127,11 @@ void tree_in_bay(benchmark::State& state) {
 
 }  // namespace
 
-BENCHMARK(harness_in_bay)->ArgName("threads")->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(harness_in_bay)
+    ->ArgNames({"threads", "refine", "clips"})
+    ->Args({1, 0, 0})
+    ->Args({2, 0, 0})
+    ->Args({2, 1, 0})
+    ->Args({2, 1, 40})
+    ->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(tree_in_bay)->ArgName("connections")->Arg(3)->Arg(6)->Arg(9)->Unit(benchmark::kMillisecond)->UseRealTime();

@@ -17,8 +17,8 @@ using What = Measure::What;
 
 // What is demanded is kept by this much more, so that what the last digits of an optimum lack is no miss. But routes run at exactly
 // their clearance, up to their certificate's tolerance: where a clip holds one there, no gap can be to spare.
-constexpr double gap_allowance = 0.5e-5;  // m
-constexpr double share_margin = 1e-3;     // of bend radii, and of the stretch allowed
+constexpr double gap_allowance = 1e-5;    // m
+constexpr double bend_margin = 1e-3, stretch_margin = 0.05;
 constexpr double seen_bend = 0.5, seen_room = 0.05;  // slacks and m beyond which nothing is looked at more closely
 constexpr double stretch_share = 0.02;    // a stretch of this much too much is a slack of -1
 constexpr std::size_t most_rooms = 12;    // of a branch
@@ -177,7 +177,7 @@ VectorXd HarnessModel::derivatives(const Measure& measure, int group, const std:
 }
 
 double HarnessModel::bend_slack(double radius) const {
-  return 1 - harness_->options.min_bend_radius * (1 + share_margin) / radius;
+  return 1 - harness_->options.min_bend_radius * (1 + bend_margin) / radius;
 }
 
 double HarnessModel::wall_gap(const Equilibrium& rod, int vertex, int side) const {
@@ -260,7 +260,7 @@ double HarnessModel::slack_of(const Tag& tag, const State& state) const {
     case bend: return bend_slack(rod.bend_radii()[std::min(static_cast<std::size_t>(tag.place), rod.s.size() - 1)]);
     case room: return (room_at(state, b, tag.place).value + gap_allowance) / around_->room_scale;
     case wall: return (wall_gap(rod, static_cast<int>(tag.place) / 6, static_cast<int>(tag.place) % 6) + gap_allowance) / around_->room_scale;
-    default: return ((1 - share_margin) * harness_->options.max_stretch - (rod.settled_length() / rod.s.back() - 1)) / stretch_share;
+    default: return ((1 - stretch_margin) * harness_->options.max_stretch - (rod.settled_length() / rod.s.back() - 1)) / stretch_share;
   }
 }
 
@@ -277,7 +277,7 @@ VectorXd HarnessModel::slope_of(const Tag& tag, const std::vector<SystemSensitiv
       if (!std::isfinite(radius)) return VectorXd::Zero(variables_->size());
       measure.what = What::bend_radius;
       measure.at = rod.s[vertex];
-      return harness_->options.min_bend_radius * (1 + share_margin) / (radius * radius) * derivatives(measure, group, sensitivities);
+      return harness_->options.min_bend_radius * (1 + bend_margin) / (radius * radius) * derivatives(measure, group, sensitivities);
     }
     case room: {
       const Room here = room_at(accepted_, b, tag.place);

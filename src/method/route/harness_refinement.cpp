@@ -15,7 +15,7 @@ namespace {
 
 constexpr double feasible = 5e-6;   // violations below the model's margins
 constexpr double tolerance = 1e-6;  // of the cost
-constexpr int most_evaluations = 100;
+constexpr int most_evaluations = 100, most_in_contact = 30;
 // Of the model's violation: one that misses more lies against surfaces or behind them, where no contact held it back.
 constexpr double hopeless = 0.5;
 
@@ -45,7 +45,7 @@ class HarnessRefinement {
       DescentOptions descent;
       descent.tolerance = tolerance;
       descent.feasible = feasible;
-      descent.max_evaluations = most_evaluations;
+      descent.max_evaluations = model.touches_all() ? most_in_contact : most_evaluations;
       const DescentOutcome outcome = descend(model, x, descent, context_);
       if (!outcome.value.valid || outcome.value.violation > hopeless) break;
       x = outcome.x;

@@ -12,7 +12,7 @@ namespace tendril::routing {
 
 namespace {
 
-constexpr double least_miss = 1e-5;  // m, as much as a route's certificate leaves
+constexpr double least_miss = 2e-5;  // m: the route's certificate leaves half of it
 
 std::string name_of_junction(int number) { return "junction " + std::to_string(number + 1); }
 
@@ -75,8 +75,10 @@ class RestReport {
   }
   void too_near(double gap, double demanded, const std::string& name) {
     const double radius = harness_.options.section.radius();
-    add((gap < 0 ? "penetrates '" + name + "' by " + mm(-gap) : "gap " + mm(gap) + " to '" + name + "'") + ", " + mm(demanded) + " demanded",
-        (demanded - gap) / std::max(demanded, radius));
+    const std::string how = too_close(gap, 0, radius) ? "penetrates " + name + " by " + mm(-gap)
+                            : gap < least_miss       ? "touches " + name
+                                                     : "gap " + mm(gap) + " to " + name;
+    add(how + ", " + mm(demanded) + " demanded", (demanded - gap) / std::max(demanded, radius));
   }
   void judge_obstacles(const Kept& kept) {
     const Surroundings& demanded = harness_.space->surroundings();
@@ -88,7 +90,7 @@ class RestReport {
       const Clearance gap = k == nearest.obstacle ? nearest : harness_.equilibrium->clearance(rod_, k, kept.from, kept.to);
       if (gap.obstacle < 0) continue;
       const bool missed = clearance > 0 ? gap.value < clearance - least_miss : too_close(gap.value, 0, radius);
-      if (missed) too_near(gap.value, clearance, demanded.name(k));
+      if (missed) too_near(gap.value, clearance, "'" + harness_.space->name(k) + "'");
     }
   }
   void judge_zones(const Kept& kept) {

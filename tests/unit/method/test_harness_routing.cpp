@@ -219,5 +219,97 @@ TEST_CASE("a harness's options are checked", "[harness]") {
   CHECK(message([](auto& o) { o.max_bends = 1; }) == "harness: 'max_bends' is 1, 2 to 30 expected");
   CHECK(message([](auto& o) { o.grid = 0; }) == "harness: 'grid' is 0 m, a length above 0 expected");
   CHECK(message([](auto& o) { o.segment = 0; }) == "harness: 'segment' is 0 m, a length above 0 expected");
+  CHECK(message([](auto& o) { o.max_clips = -1; }) == "harness: 'clips' is -1, 0 to 1000 expected");
+  CHECK(message([](auto& o) { o.restarts = 21; }) == "harness: 'restarts' is 21, 0 to 20 expected");
+  CHECK(message([](auto& o) { o.max_stretch = 0; }) == "harness: 'max_stretch' is 0, a share above 0 expected");
+  CHECK(message([](auto& o) { o.clip_reach = -1; }) == "harness: 'clip_reach' is -1 m, a length of at least 0 expected");
   CHECK(message([](auto& o) { o.wires = {{0, 1}}; }) == "harness: no wire ends at connection 3");
+}
+
+TEST_CASE("a junction comes to the Fermat point where bends are small", "[harness]") {
+  // Connections look at the point from which they are seen 120 degrees apart; the trunk's bend of 60 degrees costs a few mm.
+  const double a = 0.35, b = 0.25, c = 0.2;
+  HarnessOptions options;
+  const Vec3 fermat(0.1, 0.05, 0.02);
+  int k = 0;
+  for (const double length : {a, b, c}) {
+    const double angle = 120 * units::deg * k++ + 0.3;
+    const Vec3 out(std::cos(angle), std::sin(angle), 0);
+    options.connections.push_back(Frame::looking(fermat + length * out, -out));
+  }
+  options.section = Section::round(0.004, 0, Material::from_poisson(2e7, 0.4, 1500));
+  options.min_bend_radius = 0.003;
+  options.bundling = 1;
+  options.equilibrium = false;
+  const HarnessResult r = route_harness(Scene(), options);
+  INFO(r.message);
+  REQUIRE(r.ok);
+  REQUIRE(r.junctions.size() == 1);
+  CHECK((r.junctions[0].frame.at - fermat).norm() < 0.004);
+  CHECK(r.harness_length >= a + b + c - 1e-9);
+  CHECK(r.harness_length <= (a + b + c) * 1.002);
+  CHECK(r.cost == Approx(r.harness_length).epsilon(1e-9));
+  REQUIRE(r.wire_lengths.size() == 2);
+  CHECK(r.wire_lengths[0] == Approx(a + b).epsilon(3e-3));
+  CHECK(r.wire_lengths[1] == Approx(a + c).epsilon(3e-3));
+  CHECK(r.wire_lengths[0] + r.wire_lengths[1] == Approx(r.cable_length).epsilon(1e-12));
+
+  SECTION("moved and turned, and with connections in another order") {
+    Random random(3);
+    for (int run = 0; run < 4; ++run) {
+      INFO("run " << run);
+      HarnessOptions moved = options;
+      const Frame by{random.point(0.3), random.rotation()};
+      for (Frame& frame : moved.connections) frame = by * frame;
+      if (run % 2) std::swap(moved.connections[0], moved.connections[2]);
+      const HarnessResult other = route_harness(Scene(), moved);
+      REQUIRE(other.ok);
+      CHECK(other.cost == Approx(r.cost).epsilon(1e-3));
+      CHECK((other.junctions[0].frame.at - (by * Frame{fermat, Quat::Identity()}).at).norm() < 0.004);
+    }
+  }
+}
+
+TEST_CASE("more weight on clearance never brings a harness nearer", "[harness]") {
+  Scene scene;
+  scene.add(solid_of("post", Cylinder{0.04, 0.6}, Vec3(0.3, 0.02, 0)));
+  HarnessOptions options;
+  options.connections = {Frame::looking(Vec3(0, 0, 0), Vec3::UnitX()), Frame::looking(Vec3(0.6, 0.1, 0), -Vec3::UnitX()),
+                         Frame::looking(Vec3(0.6, -0.1, 0), -Vec3::UnitX())};
+  options.section = cable();
+  options.min_bend_radius = 0.03;
+  options.end_straight = 0.01;
+  options.equilibrium = false;
+  double gap = 0, length = 0;
+  for (const double weight : {0.0, 1.0, 4.0, 16.0}) {
+    INFO("weight " << weight);
+    options.space.clearance_weight = weight;
+    const HarnessResult r = route_harness(scene, options);
+    REQUIRE(r.ok);
+    double nearest = 1;
+    for (const HarnessBranch& branch : r.branches)
+      if (branch.clearance.obstacle >= 0) nearest = std::min(nearest, branch.clearance.value);
+    CHECK(nearest >= gap - 1e-4);
+    CHECK(r.cable_length >= length * (1 - 1e-3));
+    // What a metre costs more, summed by hand.
+    double more = 0, cost = 0;
+    for (const HarnessBranch& branch : r.branches) {
+      const Curve curve = branch.points.curve();
+      constexpr int places = 4000;
+      double here = 0;
+      for (int i = 0; i < places; ++i) {
+        const Vec3 at = curve.at((i + 0.5) / places * curve.length()).at;
+        const double outside = std::hypot(at.x() - 0.3, at.y() - 0.02) - 0.04 - 0.006;
+        const double share = std::max(0.0, 1 - outside / options.space.preference_range);
+        here += weight * share * share * curve.length() / places;
+      }
+      more += here;
+      cost += branch.factor * (branch.length + here);
+    }
+    CHECK(r.preference == Approx(more).epsilon(1e-3).margin(1e-9));
+    CHECK(r.cost == Approx(cost).epsilon(1e-3));
+    gap = nearest;
+    length = r.cable_length;
+  }
+  CHECK(gap > 0.02);
 }
