@@ -11,9 +11,7 @@ namespace tendril::routing {
 
 namespace {
 
-// Slacks down to minus this are none: lengths make up for it.
-constexpr double spared = 3e-3;
-constexpr double same = 1e-6;
+constexpr double same = 1e-6;             // slacks that differ by less
 constexpr double certified = 1e-5;  // m
 
 /// Which places of a harness lie between the same clips.
@@ -63,8 +61,8 @@ class Cells {
 class Choice {
  public:
   Choice(const Scene& scene, const HarnessSurroundings& around, const HarnessResult& harness, const std::vector<HarnessClip>& places,
-         const RunContext& context)
-      : scene_(scene), around_(around), harness_(harness), places_(places), context_(context), as_routed_(design_as_routed(harness)) {}
+         double least, const RunContext& context)
+      : scene_(scene), around_(around), harness_(harness), places_(places), least_(least), context_(context), as_routed_(design_as_routed(harness)) {}
 
   HarnessClips run(int most) {
     std::vector<int> all(places_.size());
@@ -86,7 +84,7 @@ class Choice {
   struct Look {
     std::vector<int> chosen;                 ///< numbers of places, rising
     std::shared_ptr<const SceneEquilibrium> equilibrium;
-    std::vector<HarnessModel::Place> missed; ///< where slacks are below zero
+    std::vector<HarnessModel::Place> missed; ///< where slacks are below the least
   };
 
   std::vector<HarnessClip> clips_of(const std::vector<int>& chosen) const {
@@ -102,7 +100,7 @@ class Choice {
     if (from) model.begin_from(from->equilibrium);
     ++equilibria_;
     if (!model.evaluate(model.start()).valid) return std::nullopt;
-    return Look{std::move(chosen), model.candidate().equilibrium, model.tight_places(model.candidate(), -spared)};
+    return Look{std::move(chosen), model.candidate().equilibrium, model.tight_places(model.candidate(), least_)};
   }
   HarnessClips ended(Status status) const {
     HarnessClips out;
@@ -114,12 +112,12 @@ class Choice {
     return out;
   }
 
-  /// By cell the worst slack, 0 where nothing is missed.
+  /// By cell what the worst slack lacks, 0 where nothing is missed.
   std::vector<double> worst(const Look& look, const Cells& cells) const {
     std::vector<double> out(cells.pieces(), 0.0);
     for (const HarnessModel::Place& place : look.missed) {
       double& least = out[cells.at(place.branch, place.s)];
-      least = std::min(least, place.slack);
+      least = std::min(least, place.slack - least_);
     }
     return out;
   }
@@ -230,6 +228,7 @@ class Choice {
   const HarnessSurroundings& around_;
   const HarnessResult& harness_;
   const std::vector<HarnessClip>& places_;
+  double least_;
   const RunContext& context_;
   HarnessDesign as_routed_;
   Look now_;
@@ -266,8 +265,8 @@ std::vector<HarnessClip> harness_clip_places(const HarnessSurroundings& around, 
 }
 
 HarnessClips fewest_harness_clips(const Scene& scene, const HarnessSurroundings& around, const HarnessResult& harness,
-                        const std::vector<HarnessClip>& places, int most, const RunContext& context) {
-  return Choice(scene, around, harness, places, context).run(most);
+                        const std::vector<HarnessClip>& places, int most, double least, const RunContext& context) {
+  return Choice(scene, around, harness, places, least, context).run(most);
 }
 
 }  // namespace tendril::routing

@@ -26,8 +26,9 @@ struct HarnessClips {
   int equilibria = 0;
 };
 
-/// `most`: so many are allowed, at least 1.
+/// `most`: so many are allowed, at least 1. `least`: the slack (share of what is demanded) that bend radii and gaps shall have with rods
+/// as long as their routes; below 0 where lengths are left to make up for it.
 HarnessClips fewest_harness_clips(const Scene& scene, const HarnessSurroundings& around, const HarnessResult& harness,
-                        const std::vector<HarnessClip>& places, int most, const RunContext& context);
+                        const std::vector<HarnessClip>& places, int most, double least, const RunContext& context);
 
 }  // namespace tendril::routing

@@ -1,6 +1,7 @@
 #include "method/route/harness_refinement.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/number_text.h"
@@ -18,6 +19,9 @@ constexpr double tolerance = 1e-6;  // of the cost
 constexpr int most_evaluations = 100, most_in_contact = 30;
 // Of the model's violation: one that misses more lies against surfaces or behind them, where no contact held it back.
 constexpr double hopeless = 0.5;
+
+// Slacks that clips are to leave along the route: first those that lengths may well make up for, then more of them.
+constexpr std::array<double, 3> slacks_of_clips = {-3e-3, 0.03, 0.1};
 
 class HarnessRefinement {
  public:
@@ -78,21 +82,26 @@ class HarnessRefinement {
     const std::vector<HarnessClip> places = harness_clip_places(around_, best_);
     if (places.empty())
       return say("nothing that takes clips is within " + number_text(best_.options.clip_reach / units::mm) + " mm of the route");
-    HarnessResult clipped = best_;
-    const HarnessClips choice = fewest_harness_clips(scene_, around_, best_, places, most, context_);
-    best_.equilibria += choice.equilibria;
-    if (!choice.equilibrium) {
-      if (choice.status == Status::stalled) say("with clips no equilibrium was found");
-      return;
+    int enough = 0;
+    for (const double least : slacks_of_clips) {
+      if (context_.stop() || missed_at_rest(best_) == 0) break;
+      const HarnessClips choice = fewest_harness_clips(scene_, around_, best_, places, most, least, context_);
+      best_.equilibria += choice.equilibria;
+      if (!choice.equilibrium) return say("with clips no equilibrium was found");
+      enough = std::max(enough, choice.enough);
+      clip(choice);
     }
-    HarnessDesign design = design_as_routed(best_);
-    design.clips = choice.clips;
-    clipped.design = design;
+    if (enough > most && missed_at_rest(best_) > 0)
+      say("of " + std::to_string(enough) + " clips that would help only " + std::to_string(most) + " are allowed");
+  }
+  void clip(const HarnessClips& choice) {
+    HarnessResult clipped = best_;
+    clipped.design = design_as_routed(best_);
+    clipped.design.clips = choice.clips;
     settle(scene_, clipped, context_, choice.equilibrium.get());
+    const HarnessDesign design = clipped.design;
     offer(clipped);
     if (!context_.stop()) adjust(design, choice.equilibrium);
-    if (choice.enough > most && missed_at_rest(best_) > 0)
-      say("of " + std::to_string(choice.enough) + " clips that would help only " + std::to_string(most) + " are allowed");
   }
 
   const Scene& scene_;
