@@ -569,11 +569,22 @@ function motion_methods:envelope(options) end
 ---@field length number Of its route (m)
 ---@field min_bend_radius number Of its route (m)
 ---@field name string Of its rod
+---@field rod_length number Of its rod, unstressed (m)
 ---@field settled_bend_radius number In equilibrium (m)
 ---@field settled_clearance number In equilibrium (m)
 ---@field to string Connection or junction
 ---@field wires (integer)[] Numbers of the wires in it
 local harness_branch_methods = {}
+
+---A clip that holds a branch of a harness on its route
+---@class harness_clip
+---@field at number Arc length along the unstressed rod (m)
+---@field branch integer Number of the branch
+---@field force number That it bears at rest (N)
+---@field frame frame Of the section that it holds
+---@field obstacle string To which it is fastened
+---@field route_at number Arc length along the route (m)
+local harness_clip_methods = {}
 
 ---A branch point of a routed harness
 ---@class harness_junction
@@ -586,6 +597,8 @@ local harness_junction_methods = {}
 ---@class harness
 ---@field branches (harness_branch)[] List of branches
 ---@field cable_length number Over all wires (m)
+---@field clips (harness_clip)[] List of clips, by branch
+---@field cost number Of the route: what a metre costs, by weights, preferences and wires, along all branches (m)
 ---@field equilibrium equilibrium Rods named as the branches; nil: none
 ---@field harness_length number Of all branches (m)
 ---@field junctions (harness_junction)[] List of branch points
@@ -593,13 +606,16 @@ local harness_junction_methods = {}
 ---@field message string What there is to say about it
 ---@field misses (string)[] What is not kept, in words
 ---@field ok boolean The route keeps all that is demanded, and came to rest; see settled_misses for what gravity takes away
+---@field preference number Integral along the route of what clearance weight and preferences make a metre cost more (m)
+---@field restarts integer That refinement took
 ---@field seconds number Run time (s)
----@field settled_misses (string)[] What the route keeps, but not the settled harness, in words
+---@field settled_misses (string)[] What the route keeps, but the harness at rest does not, in words
 ---@field status string "solved", "infeasible", "stalled", "cancelled", "timeout"
 ---@field steps (step)[] Name, seconds, counts of each
+---@field wire_lengths (number)[] By wire, from connection to connection along the route (m)
 local harness_methods = {}
 
----A new scene: the obstacles, and the harness as rods joined at its branch points.
+---A new scene: the obstacles, and the harness as rods joined at its branch points and held by its clips.
 ---@return scene
 function harness_methods:scene() end
 
@@ -1266,11 +1282,20 @@ method = {}
 ---@field min_bend_radius number Of the centre line (m; > 0)
 ---@field min_straight? number Least straight between two bends (m; >= 0; default 0)
 ---@field end_straight? number Least straight at both ends of every branch (m; >= 0; default 0)
----@field clearance? number Least gap to every obstacle; an obstacle's own larger one stands (m; >= 0; default 0)
----@field free_ends? number Length from the connections within which no gap is asked for (m; >= 0; default 0)
----@field keep_in? (vec|number[])[] {corner, corner}: the whole harness stays within this box (m)
+---@field weights? table<string, number> {length =, clearance =}: what a metre costs, and what it costs more next to obstacles
 ---@field grid? number Step of the search (m; > 0 and <= 1; default 0.02)
 ---@field settle? boolean Find its equilibrium under gravity (default true)
+---@field refine? boolean Where it settles: adjust lengths, directions at branch points and clips, so that it keeps at rest what its route keeps (default true)
+---@field clips? integer That may be used where lengths and directions do not help, over the whole harness (0 ... 1000; default 0)
+---@field clip_reach? number From the harness's surface to what it is clipped to, at most (m; >= 0; default 0.05)
+---@field max_stretch? number Of a refined branch at rest, as a share of its length: a harness is laid, not strung (> 0 and <= 1; default 0.002)
+---@field restarts? integer From routes with bend radius and clearance in reserve, where refinement is not enough (0 ... 20; default 2)
+---@field clearance? number Least gap to every obstacle; an obstacle's own larger one stands (m; >= 0; default 0)
+---@field free_ends? number Length at both ends within which no gap is asked for: the object must reach what it is plugged to (m; >= 0; default 0)
+---@field keep_in? (vec|number[])[] {corner, corner}: the whole object stays within this box (m)
+---@field keep_out? ((vec|number[])[])[] List of {corner, corner}: no part of it gets into these boxes (m)
+---@field preference? number How much more a metre costs next to obstacles with prefer = "avoid", and away from those with prefer = "near"; 0: the shortest (>= 0; default 0)
+---@field preference_range? number Gap from which on a preference counts no more (m; > 0; default 0.1)
 ---@field seed? integer Of all random numbers: the same seed gives the same bits (>= 0; default 1)
 ---@field threads? integer At most; default: all that the machine has (1 ... 4096)
 ---@field progress? function function(share, what), called now and then

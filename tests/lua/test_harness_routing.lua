@@ -93,7 +93,7 @@ check.case("clips: as few as hold the harness where its route keeps clear", func
     check.is_true(clip.at > 0 and clip.at < h.branches[clip.branch].rod_length)
     check.is_true(clip.route_at > 0 and clip.route_at < h.branches[clip.branch].length)
     check.is_true(clip.force >= 0)
-    check.near((h.equilibrium:rod(h.branches[clip.branch].name):at(clip.at).at - clip.frame.at):norm(), 0, 1e-9)
+    check.near((h.equilibrium:rod(h.branches[clip.branch].name):at(clip.at).at - clip.frame.at):length(), 0, 1e-9)
   end
   for _, b in ipairs(h.branches) do
     check.is_true(b.settled_clearance >= 5*mm - 2e-5)
