@@ -100,6 +100,7 @@ class Choice {
     if (from) model.begin_from(from->equilibrium);
     ++equilibria_;
     if (!model.evaluate(model.start()).valid) return std::nullopt;
+    if (!from) missed_with_all_ = model.candidate().value.violation;
     return Look{std::move(chosen), model.candidate().equilibrium, model.tight_places(model.candidate(), least_)};
   }
   HarnessClips ended(Status status) const {
@@ -108,6 +109,7 @@ class Choice {
     out.clips = clips_of(now_.chosen);
     out.enough = static_cast<int>(out.clips.size());
     out.equilibrium = now_.equilibrium;
+    out.missed_with_all = missed_with_all_;
     out.equilibria = equilibria_;
     return out;
   }
@@ -233,6 +235,7 @@ class Choice {
   HarnessDesign as_routed_;
   Look now_;
   std::vector<bool> needed_;
+  double missed_with_all_ = 0;
   int equilibria_ = 0;
 };
 

@@ -23,6 +23,7 @@ struct HarnessClips {
   std::vector<HarnessClip> clips;            ///< at most as many as allowed
   int enough = 0;                            ///< with so many nothing more is missed than with all; above `most`: too few are allowed
   std::shared_ptr<const SceneEquilibrium> equilibrium;  ///< with `clips`, of rods as long as their routes
+  double missed_with_all = 0;                ///< the largest share of what is missed with clips at all places
   int equilibria = 0;
 };
 

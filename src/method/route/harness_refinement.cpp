@@ -23,16 +23,22 @@ constexpr double hopeless = 0.5;
 // Slacks that clips are to leave along the route: first those that lengths may well make up for, then more of them.
 constexpr std::array<double, 3> slacks_of_clips = {-3e-3, 0.03, 0.1};
 
+// Shares: where more than this is missed with clips everywhere, lengths do not make up for it; another route may.
+constexpr double by_lengths = 0.03;
+
 class HarnessRefinement {
  public:
   HarnessRefinement(const Scene& scene, HarnessResult& harness, const RunContext& context)
       : scene_(scene), best_(harness), context_(context), around_(scene, harness) {}
 
-  void run() {
+  void run(bool clips_first) {
     best_.design = design_as_routed(best_);
-    settle(scene_, best_, context_);
-    adjust(best_.design, nullptr);
-    if (best_.options.max_clips > 0 && missed_at_rest(best_) > 0 && !context_.stop()) add_clips();
+    if (clips_first) add_clips();
+    if (!best_.equilibrium) {
+      settle(scene_, best_, context_);
+      adjust(best_.design, nullptr);
+    }
+    if (!clips_first && best_.options.max_clips > 0 && missed_at_rest(best_) > 0 && !context_.stop()) add_clips();
   }
 
  private:
@@ -90,6 +96,7 @@ class HarnessRefinement {
       if (!choice.equilibrium) return say("with clips no equilibrium was found");
       enough = std::max(enough, choice.enough);
       clip(choice);
+      if (choice.missed_with_all > by_lengths) break;
     }
     if (enough > most && missed_at_rest(best_) > 0)
       say("of " + std::to_string(enough) + " clips that would help only " + std::to_string(most) + " are allowed");
@@ -101,7 +108,7 @@ class HarnessRefinement {
     settle(scene_, clipped, context_, choice.equilibrium.get());
     const HarnessDesign design = clipped.design;
     offer(clipped);
-    if (!context_.stop()) adjust(design, choice.equilibrium);
+    if (choice.missed_with_all <= by_lengths && !context_.stop()) adjust(design, choice.equilibrium);
   }
 
   const Scene& scene_;
@@ -117,8 +124,8 @@ double missed_at_rest(const HarnessResult& harness) {
   return harness.missed_share;
 }
 
-void refine(const Scene& scene, HarnessResult& harness, const RunContext& context) {
-  HarnessRefinement(scene, harness, context).run();
+void refine(const Scene& scene, HarnessResult& harness, bool clips_first, const RunContext& context) {
+  HarnessRefinement(scene, harness, context).run(clips_first);
 }
 
 }  // namespace tendril::routing

@@ -259,9 +259,9 @@ HarnessResult routed(const Scene& scene, const HarnessOptions& options, const Ru
 }
 
 /// A routed harness at rest, refined where that is asked for.
-void come_to_rest(const Scene& scene, HarnessResult& r, const RunContext& context) {
+void come_to_rest(const Scene& scene, HarnessResult& r, bool clips_first, const RunContext& context) {
   StepClock steps(r.steps);
-  if (r.options.refine) refine(scene, r, context);
+  if (r.options.refine) refine(scene, r, clips_first, context);
   else settle(scene, r, context);
   const SceneEquilibrium& eq = *r.equilibrium;
   if (r.options.refine) steps.end("refinement", {{"equilibria", r.equilibria}, {"clips", long(r.design.clips.size())}});
@@ -273,12 +273,13 @@ void come_to_rest(const Scene& scene, HarnessResult& r, const RunContext& contex
     r.message = "the route keeps all that is demanded, but no equilibrium was found: " + eq.message();
 }
 
-/// What is demanded of the next route, with in reserve what gravity took from this one and a little for the next.
+/// What is demanded of the next route, with in reserve what gravity took from this one and a little for the next. Of a bend radius not
+/// all of it: clips have part in what is missed, and too large a reserve leaves no way.
 HarnessOptions with_reserve(HarnessOptions options, const HarnessResult& r) {
   for (const HarnessBranch& branch : r.branches) {
     const double radius = r.options.min_bend_radius, gap = r.options.space.clearance;
     if (branch.settled_bend_radius < radius)
-      options.min_bend_radius = std::max(options.min_bend_radius, radius * std::min(1.5, 1.05 * radius / std::max(branch.settled_bend_radius, 1e-9)));
+      options.min_bend_radius = std::max(options.min_bend_radius, radius * std::min(1.5, 1.02 + 0.7 * (radius / std::max(branch.settled_bend_radius, 1e-9) - 1)));
     if (branch.settled_clearance.obstacle >= 0 && branch.settled_clearance.value < gap)
       options.space.clearance = std::max(options.space.clearance, gap + std::min(0.02, 1.5 * (gap - branch.settled_clearance.value) + 1e-3));
   }
@@ -300,7 +301,7 @@ void restart(const Scene& scene, HarnessResult& best, const RunContext& context)
     const double begun = other.seconds;
     other.options = demanded;
     other.space = best.space;
-    come_to_rest(scene, other, context);
+    come_to_rest(scene, other, !best.design.clips.empty(), context);
     best.seconds += other.seconds - begun;
     last = other;
     other.restarts = i;
@@ -339,7 +340,7 @@ HarnessResult route_harness(const Scene& scene, const HarnessOptions& options, c
   own.space.radius = options.section.radius();
   HarnessResult result = routed(scene, own, context);
   if (result.status == Status::solved && own.equilibrium) {
-    come_to_rest(scene, result, context);
+    come_to_rest(scene, result, false, context);
     if (own.refine && result.status == Status::solved) restart(scene, result, context);
   }
   conclude(result, context);
