@@ -31,7 +31,7 @@ class HarnessRefinement {
   HarnessRefinement(const Scene& scene, HarnessResult& harness, const RunContext& context)
       : scene_(scene), best_(harness), context_(context), around_(scene, harness) {}
 
-  void run(bool clips_first) {
+  bool run(bool clips_first) {
     best_.design = design_as_routed(best_);
     if (clips_first) add_clips();
     if (!best_.equilibrium) {
@@ -39,6 +39,7 @@ class HarnessRefinement {
       adjust(best_.design, nullptr);
     }
     if (!clips_first && best_.options.max_clips > 0 && missed_at_rest(best_) > 0 && !context_.stop()) add_clips();
+    return !hopeless_ || !best_.design.clips.empty();
   }
 
  private:
@@ -57,7 +58,8 @@ class HarnessRefinement {
       descent.feasible = feasible;
       descent.max_evaluations = model.touches_all() ? most_in_contact : most_evaluations;
       const DescentOutcome outcome = descend(model, x, descent, context_);
-      if (!outcome.value.valid || outcome.value.violation > hopeless) break;
+      hopeless_ = outcome.value.valid && outcome.value.violation > hopeless;
+      if (!outcome.value.valid || hopeless_) break;
       x = outcome.x;
       other.design = model.design(x);
       settle(scene_, other, context_, model.accepted().equilibrium.get());
@@ -115,6 +117,7 @@ class HarnessRefinement {
   HarnessResult& best_;
   const RunContext& context_;
   HarnessSurroundings around_;
+  bool hopeless_ = false;
 };
 
 }  // namespace
@@ -124,8 +127,8 @@ double missed_at_rest(const HarnessResult& harness) {
   return harness.missed_share;
 }
 
-void refine(const Scene& scene, HarnessResult& harness, bool clips_first, const RunContext& context) {
-  HarnessRefinement(scene, harness, context).run(clips_first);
+bool refine(const Scene& scene, HarnessResult& harness, bool clips_first, const RunContext& context) {
+  return HarnessRefinement(scene, harness, context).run(clips_first);
 }
 
 }  // namespace tendril::routing

@@ -14,8 +14,8 @@
 namespace tendril::routing {
 
 /// Fills the design, the equilibrium and what is said about it. `harness`: routed, nothing missed. `clips_first`: without clips it is
-/// only tried where they do not help.
-void refine(const Scene& scene, HarnessResult& harness, bool clips_first, const RunContext& context = {});
+/// only tried where they do not help. False: it hangs so far below its route that another one with a little in reserve would not help.
+bool refine(const Scene& scene, HarnessResult& harness, bool clips_first, const RunContext& context = {});
 
 /// Sum of what the harness misses at rest, as shares of what is demanded; infinite without an equilibrium.
 double missed_at_rest(const HarnessResult& harness);

@@ -258,19 +258,21 @@ HarnessResult routed(const Scene& scene, const HarnessOptions& options, const Ru
   return result;
 }
 
-/// A routed harness at rest, refined where that is asked for.
-void come_to_rest(const Scene& scene, HarnessResult& r, bool clips_first, const RunContext& context) {
+/// A routed harness at rest, refined where that is asked for. False: another route would not help.
+bool come_to_rest(const Scene& scene, HarnessResult& r, bool clips_first, const RunContext& context) {
   StepClock steps(r.steps);
-  if (r.options.refine) refine(scene, r, clips_first, context);
+  bool may_help = false;
+  if (r.options.refine) may_help = refine(scene, r, clips_first, context);
   else settle(scene, r, context);
   const SceneEquilibrium& eq = *r.equilibrium;
   if (r.options.refine) steps.end("refinement", {{"equilibria", r.equilibria}, {"clips", long(r.design.clips.size())}});
   else steps.end("equilibrium", {{"rods", long(eq.rods.size())}, {"iterations", eq.iterations()}});
   r.seconds += steps.seconds();
-  if (eq.ok()) return;
+  if (eq.ok()) return may_help;
   r.status = eq.status();
   if (eq.status() == Status::stalled || eq.status() == Status::infeasible)
     r.message = "the route keeps all that is demanded, but no equilibrium was found: " + eq.message();
+  return false;
 }
 
 /// What is demanded of the next route, with in reserve what gravity took from this one and a little for the next. Of a bend radius not
@@ -340,8 +342,7 @@ HarnessResult route_harness(const Scene& scene, const HarnessOptions& options, c
   own.space.radius = options.section.radius();
   HarnessResult result = routed(scene, own, context);
   if (result.status == Status::solved && own.equilibrium) {
-    come_to_rest(scene, result, false, context);
-    if (own.refine && result.status == Status::solved) restart(scene, result, context);
+    if (come_to_rest(scene, result, false, context)) restart(scene, result, context);
   }
   conclude(result, context);
   return result;
