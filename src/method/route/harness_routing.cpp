@@ -53,6 +53,8 @@ void check(const HarnessOptions& options) {
     require(std::isfinite(value) && value >= 0, std::string("'") + name + "' is " + number_text(value) + " m, a length of at least 0 expected");
   require(options.max_bends >= 2 && options.max_bends <= 30, "'max_bends' is " + std::to_string(options.max_bends) + ", 2 to 30 expected");
   require(std::isfinite(options.grid) && options.grid > 0, "'grid' is " + number_text(options.grid) + " m, a length above 0 expected");
+  require(!options.refine || !options.equilibrium || options.solve.element == Element::se3,
+          "the rods must be of se3 elements where they are refined: staggered ones have no sensitivities");
   require(options.max_clips >= 0 && options.max_clips <= 1000, "'clips' is " + std::to_string(options.max_clips) + ", 0 to 1000 expected");
   require(options.restarts >= 0 && options.restarts <= 20, "'restarts' is " + std::to_string(options.restarts) + ", 0 to 20 expected");
   require(std::isfinite(options.max_stretch) && options.max_stretch > 0, "'max_stretch' is " + number_text(options.max_stretch) + ", a share above 0 expected");
@@ -264,6 +266,7 @@ bool come_to_rest(const Scene& scene, HarnessResult& r, bool clips_first, const 
   bool may_help = false;
   if (r.options.refine) may_help = refine(scene, r, clips_first, context);
   else settle(scene, r, context);
+  if (r.options.refine && context.stop()) r.refinement += std::string(r.refinement.empty() ? "" : "; ") + "refinement was cut short";
   const SceneEquilibrium& eq = *r.equilibrium;
   if (r.options.refine) steps.end("refinement", {{"equilibria", r.equilibria}, {"clips", long(r.design.clips.size())}});
   else steps.end("equilibrium", {{"rods", long(eq.rods.size())}, {"iterations", eq.iterations()}});

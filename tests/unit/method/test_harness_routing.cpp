@@ -222,6 +222,8 @@ TEST_CASE("a harness's options are checked", "[harness]") {
   CHECK(message([](auto& o) { o.max_clips = -1; }) == "harness: 'clips' is -1, 0 to 1000 expected");
   CHECK(message([](auto& o) { o.restarts = 21; }) == "harness: 'restarts' is 21, 0 to 20 expected");
   CHECK(message([](auto& o) { o.max_stretch = 0; }) == "harness: 'max_stretch' is 0, a share above 0 expected");
+  CHECK(message([](auto& o) { o.solve.element = Element::staggered; }) ==
+        "harness: the rods must be of se3 elements where they are refined: staggered ones have no sensitivities");
   CHECK(message([](auto& o) { o.clip_reach = -1; }) == "harness: 'clip_reach' is -1 m, a length of at least 0 expected");
   CHECK(message([](auto& o) { o.wires = {{0, 1}}; }) == "harness: no wire ends at connection 3");
 }
