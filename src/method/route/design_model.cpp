@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/error.h"
 #include "method/route/mesh_place.h"
 #include "method/route/route_guess.h"
 #include "scene/system_sensitivity.h"
@@ -113,9 +114,10 @@ bool DesignModel::begin(const VectorXd& x) {
 ConstrainedProblem::Value DesignModel::evaluate(const VectorXd& x) {
   State state;
   state.x = x;
-  const auto eq = solved(x, contact_, &accepted_.rod(), Purpose::trial);
-  state.equilibrium = eq;
-  state.value.valid = eq->ok();
+  if (space_->in_order(unscaled(x))) {
+    state.equilibrium = solved(x, contact_, &accepted_.rod(), Purpose::trial);
+    state.value.valid = state.equilibrium->ok();
+  }
   if (state.value.valid) {
     const GapProfile profile(around_->demanded, outside_->rods.front().equilibrium, seen_room);
     state.rooms = profile.along(state.problem().rod, state.rod(), judged_stretches(state.problem(), *options_));
@@ -310,11 +312,15 @@ bool DesignModel::linearise(const std::vector<Tag>& always, Linear& out) {
     const auto terms = space_->direction(j, x);
     for (std::size_t k = 0; k < terms.size(); ++k) directions_[j][k].second = terms[k].second;
   }
-  const SystemSensitivity sensitivity(*accepted_.equilibrium, 0, *context_);
-  if (!sensitivity.why_not().empty()) {
-    why_not_ = sensitivity.why_not();
-    return false;
+  std::unique_ptr<const SystemSensitivity> made;
+  try {
+    made = std::make_unique<const SystemSensitivity>(*accepted_.equilibrium, 0, *context_);
+    why_not_ = made->why_not();
+  } catch (const UsageError& e) {  // contact beside a hold: nothing that the user has asked for
+    why_not_ = e.what();
   }
+  if (!why_not_.empty()) return false;
+  const SystemSensitivity& sensitivity = *made;
   cost_at(accepted_, &out.cost, &sensitivity);
   out.tags = always;
   for (const Tag& tag : pressing(accepted_)) {

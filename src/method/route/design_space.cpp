@@ -140,6 +140,17 @@ Frame DesignSpace::turned(const Frame& frame, const Eigen::VectorXd& x, Kind tur
   return {frame.at, (exp_rotation(lean) * frame.rotation * exp_rotation(value(x, turn, 0, 0) * Vec3::UnitZ())).normalized()};
 }
 
+bool DesignSpace::in_order(const Eigen::VectorXd& x) const {
+  const double length = value(x, Kind::length, 0, first_.rod.length), apart = 1e-4 * first_.rod.length;
+  double last = 0;
+  for (std::size_t k = 0; k < first_.clips.size(); ++k) {
+    const double at = value(x, Kind::clip, static_cast<int>(k), first_.clips[k].at);
+    if (!(at >= last + apart)) return false;
+    last = at;
+  }
+  return length >= last + apart;
+}
+
 Design DesignSpace::design(const Eigen::VectorXd& x) const {
   Design out = first_;
   const double length = value(x, Kind::length, 0, first_.rod.length);

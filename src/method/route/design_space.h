@@ -30,6 +30,8 @@ class DesignSpace {
   const std::vector<Variable>& variables() const { return variables_; }
   int size() const { return static_cast<int>(variables_.size()); }
 
+  /// Whether the clips stand in their order inside the rod: bounds alone do not see to it when several variables change.
+  bool in_order(const Eigen::VectorXd& x) const;
   /// `x`: values of the variables in m and rad.
   Design design(const Eigen::VectorXd& x) const;
   /// Holds are: from, the clips, to. Without surroundings. The number of segments between holds is that of the first design.

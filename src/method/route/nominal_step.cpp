@@ -43,7 +43,12 @@ std::shared_ptr<const FreeSpace> Search::space(const Weights& weights, double mo
   return std::make_shared<const FreeSpace>(scene, demands, std::vector<Vec3>{ends.start, ends.finish}, margin, context);
 }
 
-std::shared_ptr<const Ground> Search::ground(const Weights& weights) const {
+std::shared_ptr<const Ground> Search::ground(const Weights& weights, double more_clearance) const {
+  // Far more room asked for is another maze: a search that does not know it looks into all of its dead ends.
+  if (more_clearance > 0.25 * options.grid) {
+    const std::shared_ptr<const FreeSpace> around = space(weights, more_clearance);
+    return std::make_shared<const Ground>(Ground{around, Roadmap(*around, options.grid, context)});
+  }
   const std::lock_guard lock(making_);
   std::shared_ptr<const Ground>& known = grounds_[weights.clearance / weights.length];
   if (!known) {
@@ -55,8 +60,9 @@ std::shared_ptr<const Ground> Search::ground(const Weights& weights) const {
 
 std::optional<Route> nominal(const Search& search, const Weights& weights, const Reserve& reserve, MethodStep& count,
                              std::string& why) {
-  const std::shared_ptr<const Ground> ground = search.ground(weights);
-  const auto space = reserve.clearance > 0 ? search.space(weights, reserve.clearance) : ground->space;
+  const std::shared_ptr<const Ground> ground = search.ground(weights, reserve.clearance);
+  const bool as_asked = ground->space->demands().clearance == search.options.space.clearance + reserve.clearance;
+  const auto space = as_asked ? ground->space : search.space(weights, reserve.clearance);
   routing::NominalOptions nominal_options;
   nominal_options.ends = search.ends;
   nominal_options.curve = search.options.curve;

@@ -30,9 +30,9 @@ struct Search {
   Search(const Scene& scene, const Options& options, const RunContext& context);
 
   std::shared_ptr<const FreeSpace> space(const Weights& weights, double more_clearance = 0) const;
-  /// With what is demanded and no more. Made once; routes with something in reserve are searched on it too: what is free for them
-  /// is free here, and costs to the goal are no more.
-  std::shared_ptr<const Ground> ground(const Weights& weights) const;
+  /// Up to a quarter of the grid's step more clearance: that of what is demanded and no more, made once. What is free for routes
+  /// with a little in reserve is free there, and costs to the goal are no more.
+  std::shared_ptr<const Ground> ground(const Weights& weights, double more_clearance = 0) const;
 
  private:
   mutable std::mutex making_;

@@ -231,6 +231,43 @@ TEST_CASE("design spaces: first-order changes are those of the design", "[refine
   }
 }
 
+TEST_CASE("design spaces: clips stay in order inside the rod, whatever is tried", "[refinement]") {
+  Design design = clipped_design();
+  RefinementOptions options;
+  options.adjust.clips = true;
+  const DesignSpace space(design, options);
+  REQUIRE(space.size() == 3);
+  CHECK(space.in_order(Eigen::Vector3d(1, 0.3, 0.62)));
+  CHECK_FALSE(space.in_order(Eigen::Vector3d(1, 0.63, 0.62)));
+  CHECK_FALSE(space.in_order(Eigen::Vector3d(1, 0.62, 0.62)));
+  CHECK_FALSE(space.in_order(Eigen::Vector3d(0.6, 0.3, 0.62)));
+  CHECK_FALSE(space.in_order(Eigen::Vector3d(1, 0.3, 1.01)));
+  CHECK_FALSE(space.in_order(Eigen::Vector3d(1, 0, 0.62)));
+
+  // Clips close to each other and to the finish, which shifts of 0.1 m bring out of order.
+  for (unsigned seed = 1; seed <= 12; ++seed) {
+    INFO("seed " << seed);
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<> off(-0.02, 0.02);
+    Design close;
+    close.rod = Rod::uniform(1.0, soft_hose(), 60);
+    close.from = Frame::looking({0, 0, 0.3}, {1, 0, 0});
+    close.to = Frame::looking({0.9, 0, 0.3}, {1, 0, 0});
+    for (const double at : {0.45, 0.5, 0.93, 0.97})
+      close.clips.push_back({at + 0.5 * off(random), Frame::looking({0.9 * at, off(random), 0.3 + off(random)}, {1, off(random), 0})});
+    options.min_bend_radius = 0.1;
+    options.solver = seed % 2 ? RefinementSolver::gradient : RefinementSolver::gradient_free;
+    options.max_evaluations = 60;
+    const RefinementResult result = refine(hall(), close, options);
+    double last = 0;
+    for (const Hold& clip : result.design.clips) {
+      CHECK(clip.at > last);
+      last = clip.at;
+    }
+    CHECK(result.design.rod.length > last);
+  }
+}
+
 TEST_CASE("design models: slopes of cost and constraints against differences", "[refinement]") {
   struct Case {
     const char* name;
