@@ -153,4 +153,21 @@ DistanceField::Bounds DistanceField::at(const Vec3& p) const {
   return bounds;
 }
 
+double DistanceField::interpolated(const Vec3& p) const {
+  const Vec3 steps = (p - lattice_.origin) / lattice_.spacing;
+  if (!((steps.array() >= 0).all() && (steps.array() <= (lattice_.size - 1).cast<double>()).all()))
+    return std::numeric_limits<double>::quiet_NaN();
+  const Eigen::Array3i node = steps.array().cast<int>().min(lattice_.size - 2);
+  const Vec3 share = steps - node.cast<double>().matrix();
+  double sum = 0;
+  for (int corner = 0; corner < 8; ++corner) {
+    double weight = 1;
+    for (int k = 0; k < 3; ++k) weight *= corner >> k & 1 ? share[k] : 1 - share[k];
+    const float value = values_[lattice_.index(node.x() + (corner & 1), node.y() + (corner >> 1 & 1), node.z() + (corner >> 2))];
+    if (std::isinf(value)) return value;  // nothing at all was marked
+    sum += weight * value;
+  }
+  return sum;
+}
+
 }  // namespace tendril

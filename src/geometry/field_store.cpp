@@ -5,8 +5,8 @@
 namespace tendril {
 namespace {
 
-/// A field of a large scene takes tens of megabytes.
-constexpr std::size_t most_entries = 4;
+/// A field of a large scene takes tens of megabytes: so many are kept in any case, more while they are small.
+constexpr std::size_t least_entries = 4, most_bytes = 200'000'000;
 
 bool same(const Solid& a, const Solid& b) {
   if (a.index() != b.index()) return false;
@@ -53,7 +53,9 @@ std::shared_ptr<const DistanceField> FieldStore::field(const Surroundings& surro
   Entry entry{{}, made};
   for (int i = 0; i < surroundings.size(); ++i) entry.obstacles.push_back(surroundings.obstacle(i));
   entries_.insert(entries_.begin(), std::move(entry));
-  if (entries_.size() > most_entries) entries_.pop_back();
+  std::size_t bytes = 0;
+  for (const Entry& kept : entries_) bytes += kept.field->bytes();
+  for (; entries_.size() > least_entries && bytes > most_bytes; entries_.pop_back()) bytes -= entries_.back().field->bytes();
   return made;
 }
 

@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/number_text.h"
 #include "base/parallel.h"
+#include "method/free_space/distance_gradient.h"
 
 namespace tendril::routing {
 namespace {
@@ -42,21 +43,6 @@ double spacing_for(const Eigen::AlignedBox3d& box, double kept_clear, double tri
   return spacing;
 }
 
-/// f and its slope by the gap, 1/m.
-std::pair<double, double> nearness(double gap, double range) {
-  const double x = std::max(0.0, 1 - gap / range);
-  return {x * x, -2 * x / range};
-}
-
-/// Of the distance to what was found: unit, away from the surface; inside a solid the shortest way out.
-Vec3 gradient_of(const Surroundings& surroundings, const Vec3& p, const ClosestPoint& found, double distance) {
-  if (const auto* solid = std::get_if<Solid>(&surroundings.obstacle(found.obstacle).shape)) {
-    const Frame& pose = surroundings.obstacle(found.obstacle).pose;
-    return pose.rotation * distance_to(*solid, pose.rotation.conjugate() * (p - pose.at)).normal;
-  }
-  return distance > 0 ? Vec3((p - found.point) / distance) : Vec3::Zero();
-}
-
 /// Signed distance to a box along the axes.
 double distance_to_box(const Eigen::AlignedBox3d& box, const Vec3& p) {
   const Vec3 out = (box.min() - p).cwiseMax(p - box.max());
@@ -72,6 +58,7 @@ FreeSpace::FreeSpace(const Scene& scene, const SpaceDemands& demands, const std:
   take_obstacles(scene);
   const Eigen::AlignedBox3d inner = set_region(ends, margin);
   if (!scene.obstacles().empty()) make_field(scene, inner, context);
+  if (PlaceCost::differs(scene, demands_)) make_costs(scene, inner, context);
 }
 
 void FreeSpace::check(const std::vector<Vec3>& ends, double margin) const {
@@ -105,12 +92,6 @@ void FreeSpace::take_obstacles(const Scene& scene) {
     Obstacle body = placed.body;
     body.name = placed.name;
     names_.push_back(placed.name);
-    body.clearance = 0;
-    if (demands_.clearance_weight > 0 && placed.prefer != Preference::near) nearest_.add(body);
-    if (demands_.preference > 0 && placed.prefer != Preference::neutral) {
-      preferred_.add(body);
-      near_.push_back(placed.prefer == Preference::near);
-    }
     body.clearance = std::max(placed.clearance, demands_.clearance);
     surroundings_.add(std::move(body));
   }
@@ -171,6 +152,12 @@ void FreeSpace::make_field(const Scene& scene, const Eigen::AlignedBox3d& inner,
   field_seconds_ = std::chrono::duration<double>(RunContext::Clock::now() - began).count();
 }
 
+void FreeSpace::make_costs(const Scene& scene, const Eigen::AlignedBox3d& inner, const RunContext& context) {
+  cost_ = std::make_shared<const PlaceCost>(scene, demands_, inner, region_, field_ ? field_->spacing() : field_spacing, context);
+  cost_grid_ = std::make_shared<const CostGrid>(cost_, region_);
+  fine_cost_grid_ = std::make_shared<const CostGrid>(cost_, region_, 0.4);
+}
+
 void FreeSpace::limit_by_walls(const Vec3& p, Gap& gap) const {
   if (!demands_.keep_in) return;
   for (int k = 0; k < 3; ++k)
@@ -189,7 +176,7 @@ Gap FreeSpace::gap(const Vec3& p, double limit) const {
   const ClosestPoint found = surroundings_.closest_kept(p, limit + demands_.radius, infinity);
   if (found.obstacle >= 0) {
     const double distance = found.distance + surroundings_.obstacle(found.obstacle).clearance;
-    gap = {found.distance - demands_.radius, gradient_of(surroundings_, p, found, distance), found.point, found.obstacle};
+    gap = {found.distance - demands_.radius, distance_gradient(surroundings_, p, found, distance), found.point, found.obstacle};
   }
   limit_by_walls(p, gap);
   return gap;
@@ -244,19 +231,13 @@ bool FreeSpace::is_free_between(const Vec3& a, const Vec3& b, double least) cons
 }
 
 double FreeSpace::cost(const Vec3& p, Vec3* gradient) const {
-  double cost = 1;
   if (gradient) gradient->setZero();
-  if (!all_finite(p)) return cost;
-  const double range = demands_.preference_range, limit = range + demands_.radius;
-  const auto add = [&](const Surroundings& obstacles, const ClosestPoint& found, double weight, bool near) {
-    const auto [f, slope] = nearness(found.distance - demands_.radius, range);
-    cost += weight * (near ? std::max(0.0, 1 - f) : f);
-    if (gradient && found.obstacle >= 0 && !(near && f >= 1))
-      *gradient += (near ? -weight : weight) * slope * gradient_of(obstacles, p, found, found.distance);
-  };
-  if (nearest_.size() > 0) add(nearest_, nearest_.closest(p, limit), demands_.clearance_weight, false);
-  for (int i = 0; i < preferred_.size(); ++i) add(preferred_, preferred_.closest_on(i, p, limit), demands_.preference, near_[i]);
-  return cost;
+  return cost_ ? cost_->exact(p, gradient) : 1;
+}
+
+double FreeSpace::cost_interpolated(const Vec3& p, Vec3* gradient, bool fine) const {
+  if (gradient) gradient->setZero();
+  return cost_ ? (fine ? fine_cost_grid_ : cost_grid_)->at(p, gradient) : 1;
 }
 
 }  // namespace tendril::routing

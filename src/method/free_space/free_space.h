@@ -3,29 +3,16 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "base/run_context.h"
 #include "geometry/distance_field.h"
+#include "method/free_space/cost_grid.h"
+#include "method/free_space/space_demands.h"
 #include "scene/scene.h"
 
 namespace tendril::routing {
-
-/// What the object asks of its surroundings.
-struct SpaceDemands {
-  double radius = 0;     ///< m, of the object
-  double clearance = 0;  ///< m, between the surfaces, for every obstacle; an obstacle's own larger one stands
-  std::optional<Eigen::AlignedBox3d> keep_in;   ///< m: the whole object stays within; sides may be infinitely far
-  std::vector<Eigen::AlignedBox3d> keep_out;    ///< m: no part of the object gets into; no clearance is kept there
-  /// What a metre costs: 1 + clearance_weight * f(gap to the nearest obstacle that is not to be kept near)
-  ///                        + preference * (sum over avoid of f(gap) + sum over near of max(0, 1 - f(gap))),
-  /// f(gap) = max(0, 1 - gap / preference_range)^2, gaps between the surfaces (m; no clearance is taken off).
-  double clearance_weight = 0;
-  double preference = 0;
-  double preference_range = 0.1;  ///< m
-};
 
 /// What stands in the way at a place.
 struct Gap {
@@ -68,9 +55,13 @@ class FreeSpace {
   bool is_free(const Vec3& a, const Vec3& b, double least = 0) const;
 
   /// True when places differ in what they cost.
-  bool has_preferences() const { return nearest_.size() > 0 || preferred_.size() > 0; }
-  /// What a metre costs here, at least 1; `gradient` (1/m) may be null.
+  bool has_preferences() const { return cost_ != nullptr; }
+  /// What a metre costs here, at least 1, by exact distances; `gradient` (1/m) may be null.
   double cost(const Vec3& p, Vec3* gradient = nullptr) const;
+  /// The same for searches, by fields: see PlaceCost::by_field.
+  double cost_by_field(const Vec3& p) const { return cost_ ? cost_->by_field(p) : 1; }
+  /// The same for descents, smooth and with the gradient that belongs to it, on a coarser or finer grid: see CostGrid.
+  double cost_interpolated(const Vec3& p, Vec3* gradient = nullptr, bool fine = false) const;
 
   /// By obstacle number of Gap: the scene's names, "keep_out 1", "keep_in".
   const std::string& name(int obstacle) const { return names_[obstacle]; }
@@ -81,6 +72,7 @@ class FreeSpace {
  private:
   void check(const std::vector<Vec3>& ends, double margin) const;
   void take_obstacles(const Scene& scene);
+  void make_costs(const Scene& scene, const Eigen::AlignedBox3d& inner, const RunContext& context);
   Eigen::AlignedBox3d set_region(const std::vector<Vec3>& ends, double margin);
   void make_field(const Scene& scene, const Eigen::AlignedBox3d& inner, const RunContext& context);
   void limit_by_walls(const Vec3& p, Gap& gap) const;
@@ -89,12 +81,11 @@ class FreeSpace {
 
   SpaceDemands demands_;
   Surroundings surroundings_;    ///< obstacles first, then zones
-  Surroundings nearest_;         ///< those that cost by the nearest; empty where that has no weight
-  Surroundings preferred_;       ///< those to keep near or away from; empty where that has no weight
-  std::vector<bool> near_;       ///< by number in preferred_
   std::vector<std::string> names_;
   Eigen::AlignedBox3d region_;
   std::shared_ptr<const DistanceField> field_;  ///< of the obstacles with what they ask beyond the clearance demanded
+  std::shared_ptr<const PlaceCost> cost_;       ///< null where every place costs the same
+  std::shared_ptr<const CostGrid> cost_grid_, fine_cost_grid_;
   double field_seconds_ = 0;
 };
 

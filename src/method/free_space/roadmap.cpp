@@ -67,7 +67,7 @@ void Roadmap::classify(const RunContext& context) {
         const Vec3 p = place(i);
         free_[i] = space_.is_free(p);
         found[worker] += free_[i];
-        if (preferences && free_[i]) costs_[i] = static_cast<float>(space_.cost(p));
+        if (preferences && free_[i]) costs_[i] = static_cast<float>(space_.cost_by_field(p));
       }
   });
   for (const long n : found) free_nodes_ += n;

@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "method/pcc/bfgs.h"
+#include "method/pcc/cost_integral.h"
 #include "method/pcc/pcc_terms.h"
 
 namespace tendril::routing {
@@ -83,16 +84,12 @@ PccPoints cleaned(const PccShape& shape, const std::vector<double>& radii) {
 }
 
 /// The straight, or a single bend between directions that are fixed: nothing is left to choose.
-DescentResult settled(const FreeSpace& space, const Ends& ends, const PccPoints& seed, const DescentOptions& options) {
+DescentResult settled(const FreeSpace& space, const Ends& ends, const PccPoints& seed) {
   DescentResult result;
   result.curve = {{ends.start, ends.finish}, seed.radii};
   if (seed.bends() == 1) result.curve.points.insert(result.curve.points.begin() + 1, crossing(ends));
-  result.length = result.objective = result.curve.length();
-  if (!space.has_preferences()) return result;
-  for (const PccPiece& piece : pieces_of(result.curve)) {
-    const int count = std::clamp(static_cast<int>(std::ceil(piece.length / options.sample)), 1, 100000);
-    for (int i = 0; i < count; ++i) result.objective += (space.cost(piece.at((i + 0.5) / count)) - 1) * piece.length / count;
-  }
+  result.length = result.curve.length();
+  result.objective = cost_integral(space, result.curve);
   return result;
 }
 
@@ -115,7 +112,7 @@ DescentResult descend(const FreeSpace& space, const PccDemands& demands, const E
                       const DescentOptions& options, const RunContext& context) {
   check(seed, options);
   const bool cones = demands.start_cone > 0 || demands.finish_cone > 0;
-  if (seed.bends() == 0 || (seed.bends() == 1 && !cones)) return settled(space, ends, seed, options);
+  if (seed.bends() == 0 || (seed.bends() == 1 && !cones)) return settled(space, ends, seed);
   PccUnknowns unknowns(demands, ends, seed.radii);
   PccTerms terms(space, demands, unknowns, options.margin);
   Descent descent{options, context, unknowns, terms, *std::min_element(seed.radii.begin(), seed.radii.end()), unknowns.nearest(seed)};
@@ -127,6 +124,7 @@ DescentResult descend(const FreeSpace& space, const PccDemands& demands, const E
     descent.hold(5e-6 * unit, 0, 6, 1e-3, 1e-6);
   } else {
     terms.slack = 1e-10 * unit;
+    terms.fine_costs = true;
     descent.penalize(second_weight, 1e-5, 1e-9);
     // Turns up to the largest that is allowed have their true tangents now.
     unknowns.linear_from = std::clamp(demands.max_turn + 0.05, 2.75, 3.1);
@@ -139,7 +137,7 @@ DescentResult descend(const FreeSpace& space, const PccDemands& demands, const E
   unknowns.evaluate(descent.x, shape);
   result.curve = cleaned(shape, seed.radii);
   result.length = result.curve.length();
-  result.objective = result.length + terms.objective(descent.x) - shape.length;
+  result.objective = cost_integral(space, result.curve);
   result.iterations = descent.iterations;
   result.queries = terms.queries();
   return result;

@@ -21,7 +21,7 @@ struct DescentOptions {
 struct DescentResult {
   PccPoints curve;
   double length = 0;       ///< m
-  double objective = 0;    ///< m: the integral of FreeSpace::cost; the length where nothing is preferred
+  double objective = 0;    ///< m, cost_integral(): by exact distances, while the descent follows FreeSpace::cost_interpolated
   int iterations = 0, queries = 0;
 };
 

@@ -19,7 +19,7 @@ PccTerms::PccTerms(const FreeSpace& space, const PccDemands& demands, const PccU
     : space_(space), demands_(demands), unknowns_(unknowns), margin_(margin),
       unit_(*std::min_element(unknowns.radii().begin(), unknowns.radii().end())),
       // A length changes by at most 2 with a vertex; what a metre costs more by a preference adds to it.
-      most_(4 * (1 + (space.has_preferences() ? space.demands().preference : 0))),
+      most_(4 * (1 + (space.has_preferences() ? space.demands().preference + space.demands().clearance_weight : 0))),
       sampled_(space.has_obstacles() || space.demands().keep_in || space.has_preferences()) {
   const int m = unknowns.bends();
   // Straights, turns, least and largest length, both ends.
@@ -101,7 +101,7 @@ double PccTerms::add_samples(double& sum) {
       if (gap.obstacle >= 0) by = penalty(fixed_ + i, gap.value - margin_, sum) * gap.gradient;
     }
     if (prefers) {
-      by_length = space_.cost(samples_.place(i), &slope) - 1;
+      by_length = space_.cost_interpolated(samples_.place(i), &slope, fine_costs) - 1;
       extra += by_length * samples_.length(i);
       by += samples_.length(i) * slope;
     }
@@ -118,15 +118,6 @@ double PccTerms::operator()(const Eigen::VectorXd& x, Eigen::VectorXd& gradient)
   add_demands(sum);
   if (sampled_) sum += add_samples(sum);
   unknowns_.pull_back(x, shape_, adjoint_, gradient);
-  return sum;
-}
-
-double PccTerms::objective(const Eigen::VectorXd& x) {
-  unknowns_.evaluate(x, shape_);
-  double sum = shape_.length;
-  if (!space_.has_preferences()) return sum;
-  samples_.locate(shape_, unknowns_.radii());
-  for (int i = 0; i < samples_.size(); ++i) sum += (space_.cost(samples_.place(i)) - 1) * samples_.length(i);
   return sum;
 }
 

@@ -16,6 +16,7 @@ class PccTerms {
   PccTerms(const FreeSpace& space, const PccDemands& demands, const PccUnknowns& unknowns, double margin);
 
   double weight = 1;  ///< 1/m
+  bool fine_costs = false;  ///< FreeSpace::cost_interpolated on its finer grid
   double slack = 0;   ///< m, kept on top of the straights that are demanded, so that arcs do not overlap by what is left to miss
 
   /// Places samples along the curve anew, and forgets their multipliers; see PccSamples::plan.
@@ -27,8 +28,6 @@ class PccTerms {
   double operator()(const Eigen::VectorXd& x, Eigen::VectorXd& gradient);
   /// By the ends, of the last evaluation; see PccUnknowns::pull_to_ends.
   Ends by_ends(const Eigen::VectorXd& x) const { return unknowns_.pull_to_ends(x, adjoint_); }
-  /// Without penalties, m. At x.
-  double objective(const Eigen::VectorXd& x);
 
   /// New multipliers from the slacks of the last evaluation; those of the surroundings only if asked for. They stay below what a
   /// curve can push with: where fixed ends are nearer than the margin no multiplier would help.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "method/pcc/cost_integral.h"
 #include "method/preform/pcc_optimization.h"
 #include "method/route/harness_descent.h"
 
@@ -71,13 +72,7 @@ double weighted_cost(const FreeSpace& space, const HarnessShape& shape) {
 
 double preference_along(const FreeSpace& space, const PccPoints& curve) {
   if (!space.has_preferences()) return 0;
-  constexpr double spacing = 2e-3;
-  double sum = 0;
-  for (const PccPiece& piece : pieces_of(curve)) {
-    const int count = std::clamp(static_cast<int>(std::ceil(piece.length / spacing)), 1, 100000);
-    for (int i = 0; i < count; ++i) sum += (space.cost(piece.at((i + 0.5) / count)) - 1) * piece.length / count;
-  }
-  return sum;
+  return cost_integral(space, curve) - curve.length();
 }
 
 ShapeViolations smooth(const FreeSpace& space, const HarnessOptions& options, HarnessShape& shape, double cone, const RunContext& context) {

@@ -4,6 +4,7 @@
 
 #include "base/number_text.h"
 #include "base/units.h"
+#include "method/pcc/cost_integral.h"
 #include "method/preform/global_search.h"
 #include "method/preform/pcc_optimization.h"
 #include "method/preform/pcc_sampling.h"
@@ -54,7 +55,7 @@ bool keep_chain(const FreeSpace& space, const NominalOptions& options, const Lat
   if (!violations(space, demands, options.ends, path.chain).empty()) return false;
   route.points = path.chain;
   route.length = path.chain.length();
-  route.objective = path.cost;
+  route.objective = cost_integral(space, path.chain);
   route.status = NominalRoute::Status::found;
   return true;
 }

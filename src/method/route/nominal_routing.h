@@ -21,7 +21,7 @@ struct NominalRoute {
   enum class Status { found, infeasible, stopped };
   Status status = Status::infeasible;
   PccPoints points;
-  double length = 0, objective = 0;   ///< m; the objective is the integral of FreeSpace::cost
+  double length = 0, objective = 0;   ///< m; the objective is cost_integral()
   double lattice_length = 0;          ///< m, of the chain before smoothing; 0 where the lattice had none
   std::string obstruction;            ///< where nothing was found: why
   long states = 0;
