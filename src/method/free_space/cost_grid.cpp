@@ -40,12 +40,9 @@ CostGrid::CostGrid(std::shared_ptr<const PlaceCost> cost, const Eigen::AlignedBo
 }
 
 /// Costs are at least 1, so that 0 tells that a node is not known. Two threads may find the same value at once.
-float CostGrid::value(int i, int j, int k) const {
-  std::atomic_ref<float> known(values_[lattice_.index(i, j, k)]);
-  float value = known.load(std::memory_order_relaxed);
-  if (value > 0) return value;
-  value = static_cast<float>(cost_->exact(lattice_.node(i, j, k)));
-  known.store(value, std::memory_order_relaxed);
+float CostGrid::asked_for(const Eigen::Array3i& node) const {
+  const float value = static_cast<float>(cost_->exact(lattice_.node(node.x(), node.y(), node.z())));
+  std::atomic_ref<float>(values_[lattice_.index(node.x(), node.y(), node.z())]).store(value, std::memory_order_relaxed);
   asked_.fetch_add(1, std::memory_order_relaxed);
   return value;
 }
@@ -61,9 +58,11 @@ double CostGrid::at(const Vec3& p, Vec3* gradient) const {
   Vec3 slope = Vec3::Zero();
   for (int k = 0; k < 3; ++k)
     for (int j = 0; j < 3; ++j) {
+      const std::size_t first = lattice_.index(node.x() - 1, node.y() + j - 1, node.z() + k - 1);
       double row = 0, row_slope = 0;
       for (int i = 0; i < 3; ++i) {
-        const double here = value(node.x() + i - 1, node.y() + j - 1, node.z() + k - 1);
+        double here = std::atomic_ref<float>(values_[first + i]).load(std::memory_order_relaxed);
+        if (!(here > 0)) here = asked_for(node + Eigen::Array3i(i - 1, j - 1, k - 1));
         row += x.weight[i] * here;
         row_slope += x.slope[i] * here;
       }
@@ -71,7 +70,7 @@ double CostGrid::at(const Vec3& p, Vec3* gradient) const {
       slope += Vec3(y.weight[j] * z.weight[k] * row_slope, y.slope[j] * z.weight[k] * row, y.weight[j] * z.slope[k] * row);
     }
   if (gradient) *gradient = slope / lattice_.spacing;
-  return sum;
+  return std::max(sum, 1.0);  // of ones the shares make 1 but for rounding
 }
 
 }  // namespace tendril::routing

@@ -30,7 +30,7 @@ class CostGrid {
   long asked() const { return asked_; }  ///< nodes, so far
 
  private:
-  float value(int i, int j, int k) const;
+  float asked_for(const Eigen::Array3i& node) const;
 
   std::shared_ptr<const PlaceCost> cost_;
   NodeLattice lattice_;

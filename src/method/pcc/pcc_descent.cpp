@@ -15,6 +15,8 @@ namespace {
 // Penalty weights times the smallest radius: the first lets a curve pull itself tight, the second leaves misses of less than
 // a thousandth of the radius. A softer start would cut through walls.
 constexpr double first_weight = 5, second_weight = 500;
+// Of the radius: polishing begins near its optimum, and must not jump through a wall to another one.
+constexpr double polish_step = 0.1;
 // What misses its demands by this share of the radius after the second weight has nowhere to go.
 constexpr double hopeless = 0.2;
 // Turns below this (rad) are no bends. What leaving one out moves is a thousandth of what counts as kept.
@@ -37,7 +39,7 @@ struct Descent {
     bfgs.iterations = options.iterations;
     bfgs.gradient = gradient;
     bfgs.decrease = decrease;
-    bfgs.largest_step = unit;
+    bfgs.largest_step = options.polish ? polish_step * unit : unit;
     const auto function = [this](const Eigen::VectorXd& at, Eigen::VectorXd& by) { return terms(at, by); };
     iterations += minimize(function, x, bfgs, context, &inverse).iterations;
   }

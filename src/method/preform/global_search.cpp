@@ -29,17 +29,20 @@ double length_of(const std::vector<Vec3>& points) {
   return length;
 }
 
-}  // namespace
+/// The straights that leave the ends.
+struct Leads {
+  EndLead start, finish;
+  Leads(const FreeSpace& space, const Options& options)
+      : start(end_lead(space, options.curve, options.ends.start, options.ends.start_along, options.curve.start_cone, "start")),
+        finish(end_lead(space, options.curve, options.ends.finish, -options.ends.finish_along, options.curve.finish_cone, "finish")) {}
+  const std::string& obstruction() const { return !start.obstruction.empty() ? start.obstruction : finish.obstruction; }
+};
 
-GlobalPaths global_search(const FreeSpace& space, const Options& options, const RunContext& context) {
+GlobalPaths search_between(const FreeSpace& space, const routing::Roadmap& roadmap, const Leads& leads, const Options& options,
+                           const RunContext& context) {
   GlobalPaths found;
   const Ends& ends = options.ends;
-  const EndLead start = end_lead(space, options.curve, ends.start, ends.start_along, options.curve.start_cone, "start");
-  const EndLead finish = end_lead(space, options.curve, ends.finish, -ends.finish_along, options.curve.finish_cone, "finish");
-  found.obstruction = !start.obstruction.empty() ? start.obstruction : finish.obstruction;
-  if (!found.obstruction.empty()) return found;
-
-  const routing::Roadmap roadmap(space, options.grid, context);
+  const EndLead &start = leads.start, &finish = leads.finish;
   found.nodes = roadmap.nodes();
   found.free_nodes = roadmap.free_nodes();
   if (context.stop()) return found;
@@ -67,6 +70,26 @@ GlobalPaths global_search(const FreeSpace& space, const Options& options, const 
     if (narrow.kind != routing::Bottleneck::Kind::stopped) found.obstruction = text_of(narrow, space, options.grid);
   }
   return found;
+}
+
+GlobalPaths obstructed(const Leads& leads) {
+  GlobalPaths found;
+  found.obstruction = leads.obstruction();
+  return found;
+}
+
+}  // namespace
+
+GlobalPaths global_search(const FreeSpace& space, const Options& options, const RunContext& context) {
+  const Leads leads(space, options);
+  if (!leads.obstruction().empty()) return obstructed(leads);
+  return search_between(space, routing::Roadmap(space, options.grid, context), leads, options, context);
+}
+
+GlobalPaths global_search(const FreeSpace& space, const routing::Roadmap& roadmap, const Options& options, const RunContext& context) {
+  const Leads leads(space, options);
+  if (!leads.obstruction().empty()) return obstructed(leads);
+  return search_between(space, roadmap, leads, options, context);
 }
 
 }  // namespace tendril::preform

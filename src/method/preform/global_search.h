@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "method/free_space/roadmap.h"
 #include "method/preform/options.h"
 
 namespace tendril::preform {
@@ -22,5 +23,7 @@ struct GlobalPaths {
 
 /// Throws UsageError for a grid with too many nodes (Roadmap). Stopped by `context`: the paths found so far, and no obstruction.
 GlobalPaths global_search(const FreeSpace& space, const Options& options, const RunContext& context = {});
+/// On a roadmap that is there, of the step Options::grid.
+GlobalPaths global_search(const FreeSpace& space, const routing::Roadmap& roadmap, const Options& options, const RunContext& context = {});
 
 }  // namespace tendril::preform

@@ -30,6 +30,7 @@ struct Options {
   /// around what was excluded before, and hoses pull themselves tight from there.
   double max_detour = 6;
   double same = 25e-3;            ///< m: curves nearer than this all along are the same
+  double fewer_bends = 5e-3;      ///< share of the objective that may be given up for leaving out bends that hardly turn
 };
 
 /// One design.

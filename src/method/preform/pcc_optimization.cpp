@@ -60,18 +60,36 @@ bool is_better(const Optimized& a, const Optimized& b) {
   return a.objective < b.objective * (1 - 1e-9);
 }
 
-/// To the constrained optimum from a feasible curve; margins that the certificate finds too small are raised. The curve as
-/// it was where none will do.
-Optimized polished(const FreeSpace& space, const Options& options, const Optimized& curve, const RunContext& context) {
-  DescentOptions descent = sampled(space, options, 0.25);
+/// Samples, in those of a first descent: of optima that are compared with each other, and of those that are handed out.
+constexpr double compared = 1, final = 0.25;
+
+/// The constrained optimum next to a curve that need not be feasible; margins that the certificate finds too small are raised.
+Optimized held(const FreeSpace& space, const Options& options, const PccPoints& curve, int path, double samples, const RunContext& context) {
+  DescentOptions descent = sampled(space, options, samples);
   descent.polish = true;
-  for (int attempt = 0; attempt < 3 && !context.stop(); ++attempt, descent.margin *= 4) {
-    const DescentResult result = descend(space, options.curve, options.ends, curve.points, descent, context);
-    Optimized polished = judged(space, options, result, curve.path);
-    if (!polished.violations.empty()) continue;
-    return polished.objective <= curve.objective ? polished : curve;
+  Optimized held;
+  for (int attempt = 0; attempt < 3; ++attempt, descent.margin *= 4) {
+    held = judged(space, options, descend(space, options.curve, options.ends, curve, descent, context), path);
+    if (!is_near(options, held.violations) || context.stop()) break;
   }
-  return curve;
+  return held;
+}
+
+/// From a feasible curve: as it was where it gets no better.
+Optimized polished(const FreeSpace& space, const Options& options, const Optimized& curve, double samples, const RunContext& context) {
+  const Optimized found = held(space, options, curve.points, curve.path, samples, context);
+  return found.violations.empty() && found.objective <= curve.objective ? found : curve;
+}
+
+/// The optimum for other vertices or tools: the nearest one where it keeps everything, else wherever a descent from the softer
+/// penalties leads, unless that ends far above `worth` (m).
+Optimized optimum(const FreeSpace& space, const Options& options, const Candidate& candidate, double worth, const RunContext& context) {
+  constexpr double far_above = 0.02;
+  const Optimized nearest = held(space, options, candidate.points, candidate.path, compared, context);
+  if (nearest.violations.empty()) return nearest;
+  const Optimized found = optimized(space, options, candidate, context);
+  if (!found.violations.empty() || found.objective > worth * (1 + far_above)) return found;
+  return polished(space, options, found, compared, context);
 }
 
 /// Other tools, bend by bend, until none makes it better.
@@ -85,7 +103,7 @@ Optimized with_best_tools(const FreeSpace& space, const Options& options, Optimi
         if (bend >= best.points.bends() || radius == best.points.radii[bend]) continue;
         Candidate changed{best.points, best.path};
         changed.points.radii[bend] = radius;
-        const Optimized tried = optimized(space, options, changed, context);
+        const Optimized tried = optimum(space, options, changed, best.objective, context);
         if (!is_better(tried, best)) continue;
         best = tried;
         improved = true;
@@ -102,7 +120,8 @@ double turn_at(const PccPoints& curve, int bend) {
 
 /// Without bends that hardly turn, as long as that costs next to nothing: each of them is a step of the bending machine.
 Optimized with_fewer_bends(const FreeSpace& space, const Options& options, const Optimized& given, const RunContext& context) {
-  constexpr double hardly = 15 * units::deg, next_to_nothing = 5e-3;
+  constexpr double hardly = 15 * units::deg;
+  const double most = given.objective * (1 + options.fewer_bends);
   Optimized best = given;
   while (best.points.bends() > 0 && !context.stop()) {
     int least = 0;
@@ -112,11 +131,9 @@ Optimized with_fewer_bends(const FreeSpace& space, const Options& options, const
     Candidate fewer{best.points, best.path};
     fewer.points.points.erase(fewer.points.points.begin() + least + 1);
     fewer.points.radii.erase(fewer.points.radii.begin() + least);
-    const Optimized tried = optimized(space, options, fewer, context);
+    const Optimized tried = optimum(space, options, fewer, most, context);
     // With so much freedom the descent may end in another passage, which is another hose.
-    if (!tried.violations.empty() || tried.objective > best.objective * (1 + next_to_nothing) ||
-        routing::curve_distance(tried.points, given.points) > options.same)
-      break;
+    if (!tried.violations.empty() || tried.objective > most || routing::curve_distance(tried.points, given.points) > options.same) break;
     best = tried;
   }
   return best;
@@ -143,9 +160,9 @@ std::vector<Optimized> pcc_optimization(const FreeSpace& space, const Options& o
 void polish(const FreeSpace& space, const Options& options, std::vector<Optimized>& curves, const RunContext& context) {
   in_parallel(curves.size(), context, "polishing", [&](std::size_t i) {
     if (!curves[i].violations.empty()) return;
-    const Optimized few = with_fewer_bends(space, options, curves[i], context);
-    const Optimized chosen = with_best_tools(space, options, few, context);
-    curves[i] = polished(space, options, chosen, context);
+    const Optimized settled = polished(space, options, curves[i], compared, context);
+    const Optimized chosen = with_best_tools(space, options, with_fewer_bends(space, options, settled, context), context);
+    curves[i] = polished(space, options, chosen, final, context);
   });
 }
 

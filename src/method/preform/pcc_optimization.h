@@ -19,8 +19,9 @@ struct Optimized {
 std::vector<Optimized> pcc_optimization(const FreeSpace& space, const Options& options, const std::vector<Candidate>& candidates,
                                         const RunContext& context = {});
 
-/// The winners to the constrained optimum, without bends below 15 degrees that half a per cent of the objective can replace, with
-/// tools of other radii where they make it better, and certified again.
+/// The winners to the constrained optimum, without bends below 15 degrees that Options::fewer_bends of the objective can replace,
+/// with tools of other radii where they make it better, and certified again. Only optima are compared with each other: what a
+/// descent ends above its optimum is not little beside those shares.
 void polish(const FreeSpace& space, const Options& options, std::vector<Optimized>& curves, const RunContext& context = {});
 
 }  // namespace tendril::preform

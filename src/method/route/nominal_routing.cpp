@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/number_text.h"
+#include "base/parallel.h"
 #include "base/units.h"
 #include "method/pcc/cost_integral.h"
 #include "method/preform/global_search.h"
@@ -17,6 +18,12 @@ using preform::Candidate;
 using preform::GlobalPaths;
 using preform::Optimized;
 
+/// Other passages that are tried beside the chain's: its lattice errs by a tenth, so that it may have taken the second best.
+constexpr int few_paths = 3, more_paths = 6;
+constexpr double small_detour = 1.15;
+/// Bends of curves that come from them; polishing leaves little for more.
+constexpr int most_bends_beside = 5;
+
 /// What the steps of preformed routing are told, which smooth and repair here as there.
 preform::Options smoothing_options(const FreeSpace& space, const Roadmap& roadmap, const NominalOptions& options) {
   preform::Options smoothing;
@@ -25,14 +32,17 @@ preform::Options smoothing_options(const FreeSpace& space, const Roadmap& roadma
   smoothing.curve = options.curve;
   smoothing.max_bends = options.max_bends;
   smoothing.grid = roadmap.step();
-  smoothing.max_paths = 6;
+  smoothing.max_paths = few_paths;
+  smoothing.max_detour = small_detour;
+  smoothing.fewer_bends = 5e-4;
   return smoothing;
 }
 
 /// The cheapest feasible curve that the paths lead to; false where there is none.
 bool smooth(const FreeSpace& space, const preform::Options& options, const GlobalPaths& paths, NominalRoute& route,
             const RunContext& context) {
-  const std::vector<Candidate> candidates = preform::pcc_sampling(space, options, paths, context);
+  std::vector<Candidate> candidates = preform::pcc_sampling(space, options, paths, context);
+  std::erase_if(candidates, [](const Candidate& c) { return c.path > 0 && c.points.bends() > most_bends_beside; });
   std::vector<Optimized> curves = preform::pcc_optimization(space, options, candidates, context);
   route.candidates += static_cast<int>(candidates.size());
   std::erase_if(curves, [](const Optimized& c) { return !c.violations.empty(); });
@@ -80,17 +90,24 @@ NominalRoute nominal_routing(const FreeSpace& space, const Roadmap& roadmap, con
   LatticeSearchOptions search = options.search;
   search.end_straight = options.curve.end_straight;
   search.free_ends = options.curve.free_ends;
-  const LatticePath path = lattice_search(space, roadmap, lattice, options.ends, search, context);
+  preform::Options smoothing = smoothing_options(space, roadmap, options);
+  LatticePath path;
+  GlobalPaths paths, seeds;
+  run_workers(std::min(2, thread_count(context.threads)), [&](int worker) {
+    if (worker == 0) path = lattice_search(space, roadmap, lattice, options.ends, search, context);
+    if (worker == 1 || thread_count(context.threads) == 1) paths = preform::global_search(space, roadmap, smoothing, context);
+  });
   route.states = path.states;
-  const preform::Options smoothing = smoothing_options(space, roadmap, options);
   if (path.outcome == LatticePath::Outcome::found) {
     route.lattice_length = path.chain.length();
-    GlobalPaths chain;
-    chain.paths.push_back(path.chain.curve().sampled(0.5 * roadmap.step()));
-    if (smooth(space, smoothing, chain, route, context)) return route;
+    seeds.paths.push_back(path.chain.curve().sampled(0.5 * roadmap.step()));
   }
-  GlobalPaths paths;
-  if (!context.stop()) paths = preform::global_search(space, smoothing, context);
+  seeds.paths.insert(seeds.paths.end(), paths.paths.begin(), paths.paths.end());
+  if (!context.stop() && !seeds.paths.empty() && smooth(space, smoothing, seeds, route, context)) return route;
+  // Whatever leads there, however far around.
+  smoothing.max_paths = more_paths;
+  smoothing.max_detour = preform::Options().max_detour;
+  if (!context.stop() && !paths.paths.empty()) paths = preform::global_search(space, roadmap, smoothing, context);
   if (!context.stop() && !paths.paths.empty() && smooth(space, smoothing, paths, route, context)) return route;
   if (path.outcome == LatticePath::Outcome::found && keep_chain(space, options, path, route)) return route;
   route.status = context.stop() ? NominalRoute::Status::stopped : NominalRoute::Status::infeasible;

@@ -28,8 +28,9 @@ struct NominalRoute {
   int candidates = 0;                 ///< curves that were smoothed
 };
 
-/// The chain of the lattice and, where it gives nothing feasible, the paths of the grid of places start the smoothing; the
-/// cheapest curve that keeps everything, certified, is the route. A chain that keeps it stands where smoothing finds none.
+/// The chain of the lattice and the cheapest paths of the grid of places start the smoothing, more of those where nothing
+/// feasible comes of them; the cheapest curve that keeps everything, certified, is the route. A chain that keeps it stands where
+/// smoothing finds none.
 NominalRoute nominal_routing(const FreeSpace& space, const Roadmap& roadmap, const StateLattice& lattice,
                              const NominalOptions& options, const RunContext& context = {});
 

@@ -315,3 +315,33 @@ TEST_CASE("within_kept() answers as closest_kept() does", "[surroundings][distan
     CHECK_FALSE(field.within_kept({std::nan(""), 0, 0}, 1, 0));
   }
 }
+
+TEST_CASE("between nodes the field is off by no more than it says", "[distance_field]") {
+  for (unsigned seed = 1; seed <= 4; ++seed) {
+    CAPTURE(seed);
+    Random random(seed);
+    Surroundings surroundings;
+    surroundings.add(mesh_obstacle(triangle_soup(60, 0.3, random).moved(Vec3::Zero(), Quat::Identity(), 0.5), {random.point(0.2), random.rotation()}));
+    if (seed % 2) surroundings.add({Solid(Sphere{0.2}), {random.point(0.6), Quat::Identity()}, 0.05});
+    const DistanceField field(surroundings, cube(1.2), 0.05);
+    double farthest = 0;
+    for (int i = 0; i < 3000; ++i) {
+      const Vec3 p = random.point(1.2);
+      const double value = field.interpolated(p);
+      REQUIRE(std::isfinite(value));
+      farthest = std::max(farthest, std::abs(value - exact(surroundings, p)));
+      // Linear along an axis within a voxel: the mean of two places is the value between them.
+      const Vec3 node = field.box().min() + field.spacing() * ((p - field.box().min()) / field.spacing()).array().floor().matrix();
+      const Vec3 a = node + 0.2 * field.spacing() * Vec3(1, 2, 3), b = a + 0.4 * field.spacing() * Vec3::UnitX();
+      REQUIRE(field.interpolated(0.5 * (a + b)) == Approx(0.5 * (field.interpolated(a) + field.interpolated(b))).margin(1e-9));
+    }
+    CHECK(farthest <= (0.8661 + 0.8661) * field.spacing() + 1e-5);
+    CHECK(farthest > 0.2 * field.spacing());
+    CHECK(std::isnan(field.interpolated(field.box().max() + Vec3(1e-9, 0, 0))));
+    CHECK(std::isfinite(field.interpolated(field.box().max())));
+    CHECK(std::isfinite(field.interpolated(field.box().min())));
+    CHECK(std::isnan(field.interpolated(Vec3(0, std::numeric_limits<double>::quiet_NaN(), 0))));
+  }
+  const DistanceField empty(Surroundings(), cube(1), 0.1);
+  CHECK(empty.interpolated(Vec3::Zero()) == infinity);
+}
