@@ -4,6 +4,7 @@
 #include <map>
 
 #include "base/units.h"
+#include "binding/bind_mesh.h"
 #include "binding/bind_method.h"
 #include "binding/card.h"
 #include "binding/method_options.h"
@@ -36,7 +37,7 @@ Schema route_schema() {
              option<int>("segments", "", "Elements of the rod; default by the bend radius").at_least(1),
              option<bool>("refine", "", "Adjust the design in equilibrium under gravity; else only the nominal route").preset(true),
              option<int>("restarts", "", "From routes with bend radius and clearance in reserve, where refinement fails").at_least(0).at_most(20).preset(3),
-             option<int>("clips", "", "That may be added where restarts do not help, at most").at_least(0).at_most(50).preset(0),
+             option<int>("clips", "", "That may be added where a restart does not help, at most; as few as hold it along its route").at_least(0).at_most(50).preset(0),
              option<double>("min_length", "m", "Least length").at_least(0).preset(0),
              option<double>("max_length", "m", "Largest length").above(0),
          } +
@@ -163,6 +164,10 @@ void bind_one_route(lua_State* L) {
       .property("preference", "m", "What clearance and preferences add to the length in its objective", [](const RouteHandle& h) {
         return h.route().objective - (h.route().refined.equilibrium ? h.route().length() : h.route().nominal_length);
       })
+      .property("mesh", "", "Its surface in equilibrium, else of the nominal route: to save, or to place as an obstacle for the next object",
+                [](const RouteHandle& h) {
+                  return make_mesh_value(route::surface_of(h.route(), 2 * h.result->options.space.radius));
+                })
       .property("clips", "", "Frames of the clips that hold it, from start to finish", clips_of)
       .property("clip_places", "m", "Arc lengths of the clips", clip_places_of)
       .tostring(describe_route);

@@ -67,6 +67,7 @@ std::optional<Route> nominal(const Search& search, const Weights& weights, const
   nominal_options.ends = search.ends;
   nominal_options.curve = search.options.curve;
   for (double& radius : nominal_options.curve.radii) radius *= reserve.bend_radius;
+  if (reserve.most_states > 0) nominal_options.search.most_states = reserve.most_states;
   const NominalRoute found = routing::nominal_routing(*space, ground->roadmap, search.lattice, nominal_options, search.context);
   count.counts[0].second += found.states;
   count.counts[1].second += found.candidates;
@@ -79,6 +80,7 @@ std::optional<Route> nominal(const Search& search, const Weights& weights, const
   route.nominal = found.points;
   route.nominal_length = found.length;
   route.lattice_length = found.lattice_length;
+  route.lattice_states = found.states;
   route.objective = found.objective;
   route.design = design_of(search.options, found.points);
   route.ok = true;

@@ -43,6 +43,8 @@ struct Search {
 struct Reserve {
   double bend_radius = 1;  ///< factor
   double clearance = 0;    ///< m
+  /// Of the lattice, at most; 0: as many as it takes. Where what is kept in reserve closes a passage a search would go on for long.
+  long most_states = 0;
 };
 
 /// Nothing where there is no nominal route: `why` says what keeps the ends apart. `count`: its states and curves grow.

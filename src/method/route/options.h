@@ -42,6 +42,7 @@ struct Route {
   PccPoints nominal;
   double nominal_length = 0;         ///< m
   double lattice_length = 0;         ///< m, before smoothing
+  long lattice_states = 0;           ///< that its search touched
   routing::CurveClearance nominal_clearance;  ///< of the nominal route, outside its free ends
   routing::Design design;            ///< refined
   routing::RefinementResult refined; ///< without an equilibrium where refinement was not asked for

@@ -7,6 +7,8 @@ namespace tendril::route {
 
 namespace {
 
+// States of the lattice that a restart may touch: these, and so many times those of the first route.
+constexpr long enough_states = 20'000, states_of_first = 30;
 constexpr int restarts_before_clips = 1;  // where clips may be added: what one revised route does not mend, more seldom do
 
 routing::RefinementOptions refinement_of(const Options& options, const Weights& weights) {
@@ -53,6 +55,7 @@ void clip(const Search& search, Route& route, const Route& last, MethodStep& cou
   if (!best.ok && last.restarts > route.restarts)
     if (Route other = held(last, last.restarts); other.ok) best = std::move(other);
   Reserve reserve;
+  reserve.most_states = enough_states + states_of_first * route.lattice_states;
   for (int i = 1; !best.ok && i <= search.options.restarts && !search.context.stop(); ++i) {
     reserve.bend_radius *= 1.2;
     reserve.clearance += 2e-3;
@@ -78,6 +81,7 @@ Route refined(const Search& search, Route route, MethodStep& count, MethodStep& 
   refine(route);
   Route last = route;
   Reserve reserve;
+  reserve.most_states = enough_states + states_of_first * route.lattice_states;
   const int restarts = options.max_clips > 0 ? std::min(options.restarts, restarts_before_clips) : options.restarts;
   for (int i = 1; !route.ok && i <= restarts && !search.context.stop(); ++i) {
     Weights weights = last.weights;
