@@ -729,6 +729,7 @@ local unmet_demand_methods = {}
 ---@field from frame Frame of its start
 ---@field message string What there is to say about it
 ---@field min_bend_radius number In equilibrium (m)
+---@field min_bend_radius_at number Arc length where (m)
 ---@field objective number What it costs (m)
 ---@field ok boolean All that is demanded is kept, in a stable equilibrium
 ---@field rod rod The refined design
@@ -747,6 +748,7 @@ local refined_design_methods = {}
 ---@field equilibrium equilibrium Settled; nil: none was asked for, or found
 ---@field from frame Frame of its start
 ---@field length number Of the rod, unstressed (m)
+---@field mesh mesh Its surface in equilibrium, else of the nominal route: to save, or to place as an obstacle for the next object
 ---@field min_bend_radius number In equilibrium, else of the nominal route (m)
 ---@field nominal curve The nominal route
 ---@field nominal_length number Of the nominal route (m)
@@ -1395,7 +1397,7 @@ function method.refine(scene, options) end
 ---@field segments? integer Elements of the rod; default by the bend radius (>= 1)
 ---@field refine? boolean Adjust the design in equilibrium under gravity; else only the nominal route (default true)
 ---@field restarts? integer From routes with bend radius and clearance in reserve, where refinement fails (0 ... 20; default 3)
----@field clips? integer That may be added where restarts do not help, at most (0 ... 50; default 0)
+---@field clips? integer That may be added where a restart does not help, at most; as few as hold it along its route (0 ... 50; default 0)
 ---@field min_length? number Least length (m; >= 0; default 0)
 ---@field max_length? number Largest length (m; > 0)
 ---@field adjust? (string)[] What may be adjusted: "length", "from.turn", "to.turn", "from.tilt", "to.tilt", "clips"; default: the length
@@ -1437,7 +1439,7 @@ function method.route(scene, options) end
 ---@field segments? integer Elements of the rod; default by the bend radius (>= 1)
 ---@field refine? boolean Adjust the design in equilibrium under gravity; else only the nominal route (default true)
 ---@field restarts? integer From routes with bend radius and clearance in reserve, where refinement fails (0 ... 20; default 3)
----@field clips? integer That may be added where restarts do not help, at most (0 ... 50; default 0)
+---@field clips? integer That may be added where a restart does not help, at most; as few as hold it along its route (0 ... 50; default 0)
 ---@field min_length? number Least length (m; >= 0; default 0)
 ---@field max_length? number Largest length (m; > 0)
 ---@field adjust? (string)[] What may be adjusted: "length", "from.turn", "to.turn", "from.tilt", "to.tilt", "clips"; default: the length

@@ -162,6 +162,7 @@ void bind_refine(lua_State* L) {
       .property("objective", "m", "What it costs", [](const RefinedHandle& h) { return h.result->objective; })
       .property("settled_length", "m", "Of the centre line in equilibrium", [](const RefinedHandle& h) { return h.result->settled_length; })
       .property("min_bend_radius", "m", "In equilibrium", [](const RefinedHandle& h) { return h.result->min_bend_radius; })
+      .property("min_bend_radius_at", "m", "Arc length where", [](const RefinedHandle& h) { return h.result->min_bend_radius_at; })
       .property("clearance", "m", "Smallest gap outside the free ends, with .at, .on, .s", [](const RefinedHandle& h) { return clearance_in(*h.result); })
       .property("adjusted", "", "Each parameter before and after", [](const RefinedHandle& h) { return h.result->adjusted; })
       .property("unmet", "", "Demands that are not kept, the worst first", [](const RefinedHandle& h) { return h.result->unmet; })

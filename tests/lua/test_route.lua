@@ -36,6 +36,10 @@ check.case("around a post: nominal route, design, equilibrium", function()
   check.is_true(route.nominal:min_bend_radius() >= 50*mm - 1e-9)
   check.is_true(route.min_bend_radius >= 50*mm - 1e-6)
   check.is_true(route.refined.clearance >= 5*mm - 1e-5)
+  check.is_true(route.refined.min_bend_radius_at >= 0 and route.refined.min_bend_radius_at <= route.length)
+  local solid = route.mesh
+  check.is_true(solid.watertight)
+  check.near(solid.volume, math.pi * (10*mm)^2 * route.refined.settled_length, 0.01 * solid.volume)
   check.equal(route.equilibrium.ok, true)
   -- The design placed and solved by hand comes to rest in the same state.
   s:rod("hose", route.rod, {from = route.from, to = route.to})
