@@ -185,7 +185,7 @@ class HarnessRouting {
   /// Takes a shape that is better than what there is.
   bool offer(const HarnessShape& shape, const ShapeViolations& missed) {
     const double before = misses(missed_), after = misses(missed);
-    const double least = 1e-4 * shape.cost();
+    const double least = 1e-3 * shape.cost();
     if (after > before || (after == before && weighted_cost(*r_.space, shape) > weighted_cost(*r_.space, shape_) - least)) return false;
     shape_ = shape;
     missed_ = missed;

@@ -8,7 +8,7 @@ namespace tendril::route {
 namespace {
 
 // States of the lattice that a restart may touch: these, and so many times those of the first route.
-constexpr long enough_states = 20'000, states_of_first = 30;
+constexpr long enough_states = 100'000, states_of_first = 50;
 constexpr int restarts_before_clips = 1;  // where clips may be added: what one revised route does not mend, more seldom do
 
 routing::RefinementOptions refinement_of(const Options& options, const Weights& weights) {
