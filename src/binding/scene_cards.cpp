@@ -114,7 +114,7 @@ std::string describe_equilibrium(const SceneEquilibrium& eq) {
   const Energy energy = eq.energy();
   const std::pair<const char*, double> terms[] = {
       {"bend", energy.bend}, {"twist", energy.twist}, {"stretch", energy.stretch}, {"shear", energy.shear},
-      {"gravity", energy.gravity}, {"contact", energy.contact}, {"load", energy.load}};
+      {"gravity", energy.gravity}, {"contact", energy.contact}, {"load", energy.load}, {"spring", energy.spring}};
   for (const auto& [name, value] : terms)
     if (value != 0) card.row(std::string("energy: ") + name, value, "J");
   card.row("energy: total", energy.total(), "J");

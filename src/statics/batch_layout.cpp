@@ -68,6 +68,7 @@ class Groups {
 std::string why_not_rod(const SystemProblem& system, int rod) {
   const RodProblem& problem = system.rods[rod];
   if (problem.surroundings) return "it has contact with its surroundings";
+  if (!problem.springs.empty()) return "it has springs";
   for (const PointLoad& load : problem.loads)
     if (!load.moment.isZero(0)) return "it has a dead moment";
   for (const Hold& hold : problem.holds) {
@@ -373,7 +374,7 @@ bool BatchLayout::same_structure(const SystemProblem& problem) const {
   }
   for (std::size_t k = 0; k < problem.rods.size(); ++k) {
     const RodProblem &own = problem.rods[k], &nominal = nominal_.rods[k];
-    if (own.surroundings || own.rod.segments != nominal.rod.segments || own.holds.size() != nominal.holds.size() ||
+    if (own.surroundings || !own.springs.empty() || own.rod.segments != nominal.rod.segments || own.holds.size() != nominal.holds.size() ||
         own.loads.size() != nominal.loads.size() || own.rod.parts.size() != nominal.rod.parts.size() ||
         own.rod.shape_breaks.size() != nominal.rod.shape_breaks.size() || !own.rod.shape != !nominal.rod.shape)
       return false;

@@ -13,8 +13,8 @@ namespace tendril {
 
 /// J, by term. Dead point loads are in `load` (minus force times displacement from the world origin).
 struct Energy {
-  double bend = 0, twist = 0, stretch = 0, shear = 0, gravity = 0, contact = 0, load = 0;
-  double total() const { return bend + twist + stretch + shear + gravity + contact + load; }
+  double bend = 0, twist = 0, stretch = 0, shear = 0, gravity = 0, contact = 0, load = 0, spring = 0;
+  double total() const { return bend + twist + stretch + shear + gravity + contact + load + spring; }
 };
 
 /// A force that the surroundings exert on the rod.

@@ -5,9 +5,11 @@
 namespace tendril {
 
 std::unique_ptr<RodSystem> make_rod_system(const RodProblem& problem, const SolveOptions& options, RodMesh mesh) {
-  if (options.element == Element::staggered)
-    return std::make_unique<StaggeredSystem>(problem, std::move(mesh), options.clamp);
-  return std::make_unique<Se3System>(problem, std::move(mesh));
+  std::unique_ptr<RodSystem> system;
+  if (options.element == Element::staggered) system = std::make_unique<StaggeredSystem>(problem, std::move(mesh), options.clamp);
+  else system = std::make_unique<Se3System>(problem, std::move(mesh));
+  system->place_springs();
+  return system;
 }
 
 }  // namespace tendril

@@ -87,6 +87,12 @@ void RodProblem::check(bool held_elsewhere) const {
     if (!all_finite(load.force) || !all_finite(load.moment))
       throw UsageError("load at " + number_text(load.at) + " m: force and moment must be finite numbers");
   }
+  for (const PoseSpring& spring : springs) {
+    check_place("spring", spring.at, rod.length);
+    if (!all_finite(spring.frame.at) || !all_finite(spring.frame.rotation.coeffs()) || !std::isfinite(spring.position) ||
+        !std::isfinite(spring.rotation) || spring.position < 0 || spring.rotation < 0)
+      throw UsageError("spring at " + number_text(spring.at) + " m: frame and stiffnesses must be finite numbers, stiffnesses at least 0");
+  }
   double softest = INFINITY;
   for (const RodPart& part : rod.parts) softest = std::min(softest, part.section.EA);
   const double weight = rod.mass() * gravity.norm();

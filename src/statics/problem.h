@@ -29,6 +29,15 @@ struct PointLoad {
   Vec3 moment = Vec3::Zero();
 };
 
+/// Draws the section at arc length `at` to a pose: energy 1/2 position |r - frame.at|^2 + rotation (1 - cos phi), phi the angle
+/// between the section's frame and the spring's.
+struct PoseSpring {
+  double at = 0;
+  Frame frame;
+  double position = 0;  ///< N/m
+  double rotation = 0;  ///< N m
+};
+
 /// The rod element. staggered: the thesis's section 2.1.4, positions at vertices and rotations on segments, second
 /// order. se3: frames at vertices, fourth order.
 enum class Element { se3, staggered };
@@ -41,6 +50,7 @@ struct RodProblem {
   Rod rod;
   std::vector<Hold> holds;       ///< any order; at most one for each place
   std::vector<PointLoad> loads;
+  std::vector<PoseSpring> springs;  ///< they do not hold a rod: something else must keep it
   Vec3 gravity = Vec3::Zero();   ///< m/s^2; zero: the term is left out
   const ContactField* surroundings = nullptr;  ///< not owned; null: no contact term
 

@@ -12,6 +12,7 @@ std::vector<double> breaks_of(const RodProblem& problem, const std::vector<doubl
   std::vector<double> breaks = {0, rod.length};
   for (const Hold& hold : problem.holds) breaks.push_back(as_cut && hold.cut_at >= 0 ? hold.cut_at : hold.at);
   for (const PointLoad& load : problem.loads) breaks.push_back(load.at);
+  for (const PoseSpring& spring : problem.springs) breaks.push_back(spring.at);
   for (const RodPart& part : rod.parts) breaks.push_back(part.upto);
   breaks.insert(breaks.end(), joined.begin(), joined.end());
   breaks.insert(breaks.end(), rod.shape_breaks.begin(), rod.shape_breaks.end());
@@ -68,6 +69,7 @@ RodMesh cut_into_segments(const RodProblem& problem, int segments, int refinemen
   }
   for (const Hold& hold : problem.holds) mesh.hold_vertex.push_back(vertex_at(mesh.s, hold.at));
   for (const PointLoad& load : problem.loads) mesh.load_vertex.push_back(vertex_at(mesh.s, load.at));
+  for (const PoseSpring& spring : problem.springs) mesh.spring_vertex.push_back(vertex_at(mesh.s, spring.at));
   for (const double place : joined) mesh.joint_vertex.push_back(vertex_at(mesh.s, place));
   return mesh;
 }

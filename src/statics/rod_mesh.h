@@ -15,13 +15,14 @@ struct MeshSegment {
   Quat to_middle;          ///< section orientation at the segment's middle seen from the start's, unstressed
 };
 
-/// Vertices lie at every hold, load, joined place, change of section and break of the reference shape; between those the segments are
+/// Vertices lie at every hold, load, spring, joined place, change of section and break of the reference shape; between those the segments are
 /// as equal as the number asked for allows.
 struct RodMesh {
   std::vector<double> s;               ///< segments + 1
   std::vector<MeshSegment> segments;
   std::vector<int> hold_vertex;        ///< per hold of the problem
   std::vector<int> load_vertex;        ///< per load
+  std::vector<int> spring_vertex;      ///< per spring
   std::vector<int> joint_vertex;       ///< per joined place
 
   int vertices() const { return static_cast<int>(s.size()); }

@@ -78,6 +78,40 @@ double RodSystem::add_loads(StateView state, Vec6* gradient, Mat6* diagonal) con
   }
   for (const Moment& load : moments_)
     gradient[load.node].tail<3>() -= state.q[load.node].conjugate() * load.moment;
+  return energy + add_springs(state, gradient, diagonal);
+}
+
+void RodSystem::place_springs() {
+  for (std::size_t k = 0; k < problem_.springs.size(); ++k) {
+    const PoseSpring& spring = problem_.springs[k];
+    if (spring.position > 0 || spring.rotation > 0)
+      springs_.push_back({section_at(mesh_.spring_vertex[k]), spring.frame, spring.position, spring.rotation});
+  }
+}
+
+// With M = R*^T R the turning part is rotation (3 - tr M) / 2; a turn by theta changes it by rotation axial(M) . theta, and
+// rotation / 2 (tr M I - sym M) is its second derivative.
+double RodSystem::add_springs(StateView state, Vec6* gradient, Mat6* diagonal) const {
+  for (const Spring& spring : springs_) {
+    gradient[spring.nodes.position].head<3>() += spring.position * (state.r[spring.nodes.position] - spring.frame.at);
+    const Mat3 turned = (spring.frame.rotation.conjugate() * state.q[spring.nodes.rotation]).toRotationMatrix();
+    const Vec3 axial(turned(2, 1) - turned(1, 2), turned(0, 2) - turned(2, 0), turned(1, 0) - turned(0, 1));
+    gradient[spring.nodes.rotation].tail<3>() += 0.5 * spring.rotation * axial;
+    if (!diagonal) continue;
+    diagonal[spring.nodes.position].topLeftCorner<3, 3>() += spring.position * Mat3::Identity();
+    const Mat3 symmetric = 0.5 * (turned + turned.transpose());
+    diagonal[spring.nodes.rotation].bottomRightCorner<3, 3>() += 0.5 * spring.rotation * (turned.trace() * Mat3::Identity() - symmetric);
+  }
+  return spring_energy(state);
+}
+
+double RodSystem::spring_energy(StateView state) const {
+  double energy = 0;
+  for (const Spring& spring : springs_) {
+    energy += 0.5 * spring.position * (state.r[spring.nodes.position] - spring.frame.at).squaredNorm();
+    // 1 - cos phi = 2 |vector part|^2, which keeps its digits where phi is small.
+    energy += 2 * spring.rotation * (spring.frame.rotation.conjugate() * state.q[spring.nodes.rotation]).vec().squaredNorm();
+  }
   return energy;
 }
 
@@ -86,6 +120,7 @@ void RodSystem::describe_loads(StateView state, Energy& energy) const {
   for (std::size_t i = 0; i < weight_slope_.size(); ++i)
     energy.gravity += weight_slope_[i].dot(state.q[i] * Vec3::UnitZ());
   for (const Force& load : forces_) energy.load -= load.force.dot(state.r[load.node]);
+  energy.spring += spring_energy(state);
 }
 
 void RodSystem::scale_moments(double share) {

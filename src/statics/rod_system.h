@@ -76,6 +76,9 @@ class RodSystem {
   };
   virtual SectionNodes section_at(int vertex) const = 0;
 
+  /// Takes up the problem's springs; called once, when the rod is complete. Throws UsageError as section_at() does.
+  void place_springs();
+
   /// Overwrites its part of the system. Held unknowns are not yet taken out. Returns the energy.
   double assemble(StateView state, Stress stress, BlockView system);
 
@@ -120,6 +123,9 @@ class RodSystem {
   virtual double assemble_elements(StateView state, Stress stress, BlockView system) = 0;
   virtual double element_gradient(StateView state, Vec6* gradient) = 0;
 
+  double add_springs(StateView state, Vec6* gradient, Mat6* diagonal) const;
+  double spring_energy(StateView state) const;
+
   /// -w.r and -F.r summed over nodes, and the end terms of the fourth-order gravity rule.
   double add_loads(StateView state, Vec6* gradient, Mat6* diagonal) const;
   void describe_loads(StateView state, Energy& energy) const;
@@ -145,6 +151,12 @@ class RodSystem {
   };
   std::vector<Force> forces_;
   std::vector<Moment> moments_;
+  struct Spring {
+    SectionNodes nodes;
+    Frame frame;
+    double position, rotation;
+  };
+  std::vector<Spring> springs_;
   double moment_share_ = 1;
 };
 
