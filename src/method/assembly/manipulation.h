@@ -1,0 +1,32 @@
+// A manipulation of a system of rods: what is gripped, and where each grip is over a common time (thesis 3.4).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/frame.h"
+
+namespace tendril::assembly {
+
+/// Where a hand or a jig holds the system: a section of a rod, or a branch point.
+struct Grip {
+  std::string name;   ///< "hose.start", "handle", "junction 1"
+  int rod = -1;       ///< of the system's rods; or
+  int branch = -1;    ///< of its branch points
+  double at = 0;      ///< arc length, m; of no meaning for a branch point
+  bool connection = false;  ///< it is held in the routed configuration; the others let go at the end
+};
+
+/// Poses of all grips at rising times from 0 to 1; between them places move straight and orientations turn evenly.
+struct Manipulation {
+  std::vector<Grip> grips;
+  std::vector<double> times;
+  std::vector<std::vector<Frame>> poses;  ///< by grip, then by time
+
+  Frame pose(int grip, double t) const;
+  /// The farthest that any grip moves between two times: distance plus 0.05 m a radian.
+  double moved(double from, double to) const;
+  Manipulation reversed() const;
+};
+
+}  // namespace tendril::assembly

@@ -1,0 +1,74 @@
+// What method.assembly is asked, and what it answers.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "method/assembly/manipulation.h"
+#include "method/step.h"
+#include "scene/scene.h"
+
+namespace tendril::assembly {
+
+/// A rigid body at a rod's end or a branch point: it collides too.
+struct Connector {
+  std::string name;
+  std::string rod;            ///< its rod's name
+  bool at_start = false;      ///< else at its finish
+  /// In the axes of the section it is fixed to.
+  Obstacle body;
+};
+
+struct Options {
+  std::vector<std::string> rods;       ///< names; empty: all rods of the scene, which must hang together
+  std::vector<Connector> connectors;
+  std::optional<Vec3> exit;            ///< m, where the handle must get to; nothing: anywhere with room
+  std::string grip;                    ///< rod or branch point to take as the handle; empty: chosen
+  double grip_at = -1;                 ///< m, arc length; negative: the middle
+  double max_strain = 0.3;             ///< of the outermost fibre, all the way
+  double min_bend_radius = 0;          ///< m, all the way; 0: any
+  double deviation = 0.05;             ///< of the thickest radius: how near the last state must be to the routed one
+  int attempts = 12;                   ///< handles, paths, gravity modes, grips: tried in order of promise
+  bool optimise = true;                ///< the found manipulation: shorter, smoother, with more clearance, fewer grips
+  double optimise_seconds = 5;         ///< s
+  SolveOptions solve;
+};
+
+/// How a try to install it went.
+struct Proof {
+  bool ok = false;
+  std::string message;                 ///< what went wrong, where
+  double deviation = 0;                ///< m, farthest vertex from the routed configuration in the end
+  int steps = 0;
+  double strain = 0, strain_at_time = 0;
+  double bend_radius = 0, bend_radius_at_time = 0;  ///< m
+  double clearance = 0, clearance_at_time = 0;      ///< m; negative: contact with so much overlap
+  std::string strain_of, bend_radius_of, clearance_to;
+};
+
+/// One state of the forward play.
+struct KeyFrame {
+  double t = 0;
+  std::shared_ptr<const SceneEquilibrium> equilibrium;
+};
+
+struct Result {
+  bool ok = false;
+  /// solved: installed and proven by playing it forward. infeasible: no attempt was proven; `message` says how far the best one
+  /// came and what stopped it. stalled: the routed configuration itself has no equilibrium. cancelled, timeout.
+  Status status = Status::stalled;
+  std::string message;
+  double seconds = 0;
+  std::vector<MethodStep> steps;
+  Manipulation manipulation;           ///< forward: from outside to the routed configuration
+  double duration = 1;                 ///< s, of the common time
+  Proof proof;
+  std::vector<KeyFrame> play;          ///< of the proof
+  std::vector<Vec3> handle_path;       ///< m, outwards
+  int attempts = 0;
+  int hands = 0;                       ///< grips at the same time, at most
+};
+
+}  // namespace tendril::assembly

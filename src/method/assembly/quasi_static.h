@@ -1,0 +1,49 @@
+// A system driven from equilibrium to equilibrium in small steps, with what happens on the way: jumps, contact, limits.
+//
+// A step's size adapts to Newton's passes and to how far vertices move. A step is taken back and halved where a vertex moves much
+// farther than what drives it, where the straight between a point's old and new place crosses a surface, or where there is no
+// equilibrium. Where even the least step jumps or fails, the rods run down their energy under springs that draw every vertex to
+// where it is (proximal flow), so that traces stay continuous through a snap-through.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "statics/motion.h"
+
+namespace tendril::assembly {
+
+struct DriveOptions {
+  double radius = 0;              ///< m, of the thickest rod
+  double first_step = 1, most_step = 4, least_step = 0.05;  ///< of what drives, in radii
+  bool flow = true;               ///< through snap-throughs; false: they end the drive
+  double most_strain = 0;         ///< 0: any
+  double min_bend_radius = 0;     ///< m; 0: any
+  int most_steps = 5000;
+};
+
+/// One equilibrium on the way.
+struct Passed {
+  double t = 0;
+  SystemEquilibrium equilibrium;
+  bool flowed = false;            ///< on the way down after a snap-through: not in equilibrium with what drives alone
+};
+
+struct Drive {
+  enum class End { arrived, no_equilibrium, snap, crossing, strain, bend_radius, stopped };
+  End end = End::no_equilibrium;
+  std::string message;            ///< where along what, and why; empty: arrived
+  std::vector<Passed> passed;     ///< the first is where it began
+  int snaps = 0, solves = 0;
+  long iterations = 0;
+  double worst_strain = 0, least_bend_radius = 0;  ///< over all that passed; m
+  bool ok() const { return end == End::arrived; }
+};
+
+/// `from`: in equilibrium with `path` at t = 0. `moved`: m, how far what drives goes between two times. All problems of the path
+/// have the same rods, holds and springs but for poses, stiffnesses, gravity.
+Drive drive(const SystemProblem& problem, const ProblemPath& path, const std::function<double(double from, double to)>& moved,
+            const SystemEquilibrium& from, const DriveOptions& options, const SolveOptions& solve, const RunContext& context = {});
+
+}  // namespace tendril::assembly
