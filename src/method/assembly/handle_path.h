@@ -1,6 +1,7 @@
 // A way out for a ball at the handle, through free space to where the whole system has room (thesis 3.4, handle path planning).
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,6 @@ struct HandlePaths {
 
 /// Dijkstra over a grid on the distance field, a metre costing (1 + (4 radius / d)^2) at distance d, with least distances that rise
 /// from the radius on; smoothed without losing clearance. Throws UsageError for options that make no sense.
-HandlePaths handle_paths(const FreeSpace& space, const Vec3& from, const HandlePathOptions& options, const RunContext& context = {});
+HandlePaths handle_paths(const routing::FreeSpace& space, const Vec3& from, const HandlePathOptions& options, const RunContext& context = {});
 
 }  // namespace tendril::assembly

@@ -17,6 +17,9 @@ struct Grip {
   bool connection = false;  ///< it is held in the routed configuration; the others let go at the end
 };
 
+/// How far a grip goes between two poses: distance plus 0.05 m a radian.
+double travel(const Frame& a, const Frame& b);
+
 /// Poses of all grips at rising times from 0 to 1; between them places move straight and orientations turn evenly.
 struct Manipulation {
   std::vector<Grip> grips;
@@ -24,7 +27,7 @@ struct Manipulation {
   std::vector<std::vector<Frame>> poses;  ///< by grip, then by time
 
   Frame pose(int grip, double t) const;
-  /// The farthest that any grip moves between two times: distance plus 0.05 m a radian.
+  /// The farthest that any grip travels between two times; m.
   double moved(double from, double to) const;
   Manipulation reversed() const;
 };

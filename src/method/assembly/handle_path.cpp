@@ -1,0 +1,221 @@
+#include "method/assembly/handle_path.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <queue>
+
+#include "base/number_text.h"
+#include "base/units.h"
+#include "method/free_space/bottleneck.h"
+#include "method/free_space/roadmap.h"
+
+namespace tendril::assembly {
+
+namespace {
+
+using routing::FreeSpace;
+using routing::Roadmap;
+
+constexpr double most_nodes = 2e7;
+// Balls that are tried, in radii of the thickest rod, the largest first.
+constexpr std::array<double, 5> balls = {4, 3, 2, 1.5, 1};
+// What rests on a surface is a little nearer to it than its radius.
+constexpr double resting = 2e-3;
+
+/// A grid over the region with distances that are looked up when they are asked for.
+class Grid {
+ public:
+  Grid(const FreeSpace& space, double step) : space_(space), step_(step), corner_(space.region().min()) {
+    for (int k = 0; k < 3; ++k) size_[k] = static_cast<int>(space.region().sizes()[k] / step) + 1;
+    distance_.assign(nodes(), -1.0f);
+  }
+  long nodes() const { return static_cast<long>(size_[0]) * size_[1] * size_[2]; }
+  Vec3 place(long node) const { return corner_ + step_ * cell(node).cast<double>(); }
+  Eigen::Vector3i cell(long node) const {
+    return {static_cast<int>(node % size_[0]), static_cast<int>(node / size_[0] % size_[1]), static_cast<int>(node / size_[0] / size_[1])};
+  }
+  long node(const Eigen::Vector3i& c) const { return c[0] + static_cast<long>(size_[0]) * (c[1] + static_cast<long>(size_[1]) * c[2]); }
+  bool holds(const Eigen::Vector3i& c) const { return (c.array() >= 0).all() && c[0] < size_[0] && c[1] < size_[1] && c[2] < size_[2]; }
+  Eigen::Vector3i nearest(const Vec3& p) const {
+    Eigen::Vector3i c = ((p - corner_) / step_).array().round().cast<int>().matrix();
+    for (int k = 0; k < 3; ++k) c[k] = std::clamp(c[k], 0, size_[k] - 1);
+    return c;
+  }
+  double step() const { return step_; }
+
+  /// m from the nearest surface: exact up to `near`, beyond that the field's lower bound.
+  double distance(long node, double near) {
+    float& known = distance_[node];
+    if (known >= 0) return known;
+    const Vec3 p = place(node);
+    const double radius = space_.demands().radius, low = space_.bounds(p).low + radius;
+    known = static_cast<float>(low > near ? low : std::max(0.0, std::max(low, space_.gap(p, near).value + radius)));
+    return known;
+  }
+
+ private:
+  const FreeSpace& space_;
+  double step_;
+  Vec3 corner_;
+  std::array<int, 3> size_;
+  std::vector<float> distance_;
+};
+
+struct Waiting {
+  double cost;
+  long node;
+  bool operator<(const Waiting& other) const { return cost > other.cost || (cost == other.cost && node > other.node); }
+};
+
+/// Dijkstra's search for a ball from the handle to where it may end.
+class Search {
+ public:
+  Search(Grid& grid, const Vec3& from, const HandlePathOptions& options, double ball, const RunContext& context)
+      : grid_(grid), from_(from), options_(options), ball_(ball), context_(context) {}
+
+  /// Outwards; empty: there is no way.
+  std::vector<Vec3> run() {
+    std::vector<double> cost(grid_.nodes(), INFINITY);
+    std::vector<long> parent(grid_.nodes(), -1);
+    std::priority_queue<Waiting> waiting;
+    const Eigen::Vector3i middle = grid_.nearest(from_);
+    for (int i = 0; i < 27; ++i) {
+      const Eigen::Vector3i c = middle + Eigen::Vector3i(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
+      if (!grid_.holds(c) || !passes(grid_.node(c))) continue;
+      cost[grid_.node(c)] = price(grid_.node(c)) * (grid_.place(grid_.node(c)) - from_).norm();
+      waiting.push({cost[grid_.node(c)], grid_.node(c)});
+    }
+    for (long popped = 0; !waiting.empty(); ++popped) {
+      const Waiting next = waiting.top();
+      waiting.pop();
+      if (next.cost > cost[next.node]) continue;
+      if (is_out(next.node)) return way_to(next.node, parent);
+      if (popped % 1024 == 0 && context_.stop()) return {};
+      for (const Roadmap::Neighbour& n : Roadmap::neighbours()) {
+        const Eigen::Vector3i c = grid_.cell(next.node) + Eigen::Vector3i(n.offset[0], n.offset[1], n.offset[2]);
+        if (!grid_.holds(c)) continue;
+        const long other = grid_.node(c);
+        if (!passes(other)) continue;
+        const double there = next.cost + 0.5 * (price(next.node) + price(other)) * n.steps * grid_.step();
+        if (there >= cost[other]) continue;
+        cost[other] = there;
+        parent[other] = next.node;
+        waiting.push({there, other});
+      }
+    }
+    return {};
+  }
+
+ private:
+  double near() const { return 8 * ball_ + options_.radius; }
+  /// Around the handle as much as it has there is enough, then ever more.
+  bool passes(long node) {
+    const double from = (grid_.place(node) - from_).norm();
+    const double least = std::min(ball_, options_.radius + 0.5 * from);
+    return grid_.distance(node, near()) >= least - resting * options_.radius;
+  }
+  double price(long node) {
+    const double share = 4 * options_.radius / std::max(grid_.distance(node, near()), 0.25 * options_.radius);
+    return 1 + share * share;
+  }
+  bool is_out(long node) {
+    if (options_.exit) return (grid_.place(node) - *options_.exit).norm() <= 1.01 * grid_.step();
+    return grid_.distance(node, near()) >= options_.arm;
+  }
+  std::vector<Vec3> way_to(long node, const std::vector<long>& parent) const {
+    std::vector<Vec3> way;
+    for (long at = node; at >= 0; at = parent[at]) way.push_back(grid_.place(at));
+    way.push_back(from_);
+    std::reverse(way.begin(), way.end());
+    if (options_.exit) way.push_back(*options_.exit);
+    return way;
+  }
+
+  Grid& grid_;
+  const Vec3& from_;
+  const HandlePathOptions& options_;
+  double ball_;
+  const RunContext& context_;
+};
+
+/// Straights over as many places as keep the smallest distance of the places that they pass by.
+std::vector<Vec3> shortened(const FreeSpace& space, const std::vector<Vec3>& way, double most) {
+  const double radius = space.demands().radius;
+  std::vector<double> gap;
+  for (const Vec3& p : way) gap.push_back(std::min(space.gap(p, most).value, most));
+  std::vector<Vec3> straights{way.front()};
+  for (std::size_t i = 0; i + 1 < way.size();) {
+    std::size_t farthest = i + 1;
+    double least = std::min(gap[i], gap[i + 1]);
+    for (std::size_t j = i + 2; j < way.size(); ++j) {
+      least = std::min(least, gap[j]);
+      if (space.is_free(way[i], way[j], least - resting * radius)) farthest = j;
+    }
+    straights.push_back(way[farthest]);
+    i = farthest;
+  }
+  return straights;
+}
+
+HandlePath measured(const FreeSpace& space, std::vector<Vec3> points, double most) {
+  HandlePath path;
+  path.points = std::move(points);
+  path.clearance = most;
+  for (std::size_t i = 1; i < path.points.size(); ++i) {
+    const double way = (path.points[i] - path.points[i - 1]).norm();
+    path.length += way;
+    const int pieces = std::max(1, static_cast<int>(std::ceil(way / (0.5 * space.demands().radius))));
+    for (int k = 0; k <= pieces; ++k) {
+      const Vec3 p = path.points[i - 1] + double(k) / pieces * (path.points[i] - path.points[i - 1]);
+      // The handle's own place is as near as it is routed.
+      if ((p - path.points.front()).norm() < 2 * most) continue;
+      path.clearance = std::min(path.clearance, space.gap(p, most).value + space.demands().radius);
+    }
+  }
+  return path;
+}
+
+bool is_known(const std::vector<HandlePath>& paths, const HandlePath& path, double near) {
+  return std::any_of(paths.begin(), paths.end(), [&](const HandlePath& other) {
+    return std::abs(other.length - path.length) < near && other.points.size() == path.points.size();
+  });
+}
+
+double step_for(const FreeSpace& space, const HandlePathOptions& options) {
+  const double wanted = options.grid > 0 ? options.grid : std::max(options.radius, 2e-3);
+  const double volume = space.region().volume();
+  return std::max(wanted, std::cbrt(volume / most_nodes));
+}
+
+}  // namespace
+
+HandlePaths handle_paths(const FreeSpace& space, const Vec3& from, const HandlePathOptions& options, const RunContext& context) {
+  if (!(std::isfinite(options.radius) && options.radius > 0)) throw UsageError("assembly: the radius of the handle's ball must be above 0");
+  if (!(std::isfinite(options.arm) && options.arm > 0)) throw UsageError("assembly: the system's arm must be above 0");
+  if (!all_finite(from)) throw UsageError("assembly: the handle's place must be finite");
+  HandlePaths result;
+  if (!space.has_obstacles()) {
+    const Vec3 out = options.exit ? *options.exit : Vec3(from + options.arm * Vec3::UnitZ());
+    result.paths.push_back({{from, out}, options.arm, (out - from).norm()});
+    return result;
+  }
+  Grid grid(space, step_for(space, options));
+  for (const double ball : balls) {
+    if (static_cast<int>(result.paths.size()) >= options.most_paths || context.stop()) break;
+    const std::vector<Vec3> way = Search(grid, from, options, ball * options.radius, context).run();
+    if (way.empty()) continue;
+    HandlePath path = measured(space, shortened(space, way, ball * options.radius), ball * options.radius);
+    if (!is_known(result.paths, path, grid.step())) result.paths.push_back(std::move(path));
+  }
+  if (result.paths.empty() && !context.stop()) {
+    const Vec3 out = options.exit ? *options.exit : space.region().corner(Eigen::AlignedBox3d::TopRightCeil);
+    const routing::Bottleneck narrow = routing::bottleneck_between(space, from, out, grid.step(), context);
+    result.widest = narrow.lets_through;
+    result.narrow = narrow.at;
+    result.why = routing::text_of(narrow, space, grid.step());
+  }
+  return result;
+}
+
+}  // namespace tendril::assembly

@@ -1,0 +1,152 @@
+#include "method/assembly/installed_system.h"
+
+#include <algorithm>
+#include <cmath>
+#include <queue>
+
+#include "base/nearest_name.h"
+#include "statics/solve.h"
+
+namespace tendril::assembly {
+
+namespace {
+
+/// The one system that has all these rods, by number in scene.systems().
+Scene::System system_of(const Scene& scene, const std::vector<std::string>& rods) {
+  std::vector<std::string> names;
+  for (const auto& rod : scene.rods()) names.push_back(rod->name());
+  if (names.empty()) throw UsageError("assembly: the scene has no rods");
+  for (const std::string& wanted : rods)
+    if (std::find(names.begin(), names.end(), wanted) == names.end()) throw UsageError("assembly: unknown " + unknown_name(wanted, "rods", names));
+  const std::string first = rods.empty() ? names.front() : rods.front();
+  for (Scene::System& system : scene.systems()) {
+    const auto has = [&](const std::string& name) {
+      return std::any_of(system.rods.begin(), system.rods.end(), [&](int k) { return names[k] == name; });
+    };
+    if (!has(first)) continue;
+    for (const std::string& wanted : rods.empty() ? names : rods)
+      if (!has(wanted))
+        throw UsageError("assembly: rods '" + first + "' and '" + wanted + "' do not hang together; install them one after the other ('rods' names those of one)");
+    return system;
+  }
+  throw UsageError("assembly: rod '" + first + "' belongs to no system");
+}
+
+void add_place(SystemProblem& problem, int rod, double at) { problem.rods[rod].springs.push_back({at, Frame{}, 0, 0}); }
+
+}  // namespace
+
+Frame InstalledSystem::pose(const SystemEquilibrium& state, const Grip& grip) const {
+  if (grip.branch >= 0) return state.branches[grip.branch];
+  const Equilibrium& rod = state.rods[grip.rod];
+  std::size_t nearest = 0;
+  for (std::size_t i = 1; i < rod.s.size(); ++i)
+    if (std::abs(rod.s[i] - grip.at) < std::abs(rod.s[nearest] - grip.at)) nearest = i;
+  return {rod.points[nearest], rod.rotations[nearest]};
+}
+
+// Distances along the rods between places: ends, joined sections and the grip, by Dijkstra's method.
+double InstalledSystem::arm(const Grip& grip) const {
+  struct Place {
+    int rod;
+    double at;
+    int branch;
+  };
+  std::vector<Place> places;
+  for (int k = 0; k < static_cast<int>(free.rods.size()); ++k)
+    for (const double at : {0.0, free.rods[k].rod.length}) places.push_back({k, at, -1});
+  for (int b = 0; b < static_cast<int>(free.branches.size()); ++b)
+    for (const JoinedSection& section : free.branches[b].sections) places.push_back({section.rod, section.at, b});
+  const int count = static_cast<int>(places.size());
+  std::vector<double> way(count, INFINITY);
+  for (int i = 0; i < count; ++i) {
+    if (grip.branch >= 0 && places[i].branch == grip.branch) way[i] = 0;
+    if (grip.branch < 0 && places[i].rod == grip.rod) way[i] = std::abs(places[i].at - grip.at);
+  }
+  std::vector<char> done(count, 0);
+  for (int turn = 0; turn < count; ++turn) {
+    int next = -1;
+    for (int i = 0; i < count; ++i)
+      if (!done[i] && (next < 0 || way[i] < way[next])) next = i;
+    done[next] = 1;
+    for (int i = 0; i < count; ++i) {
+      double step = INFINITY;
+      if (places[i].rod == places[next].rod) step = std::abs(places[i].at - places[next].at);
+      if (places[i].branch >= 0 && places[i].branch == places[next].branch) step = 0;
+      way[i] = std::min(way[i], way[next] + step);
+    }
+  }
+  return *std::max_element(way.begin(), way.end());
+}
+
+InstalledSystem installed_system(const Scene& scene, const std::vector<std::string>& rods, int between, const SolveOptions& solve,
+                                 const RunContext& context) {
+  const Scene::System system = system_of(scene, rods);
+  InstalledSystem installed;
+  installed.surroundings = scene.surroundings();
+  installed.free = system.problem;
+  const auto routed = scene.solve(solve, context);
+  for (std::size_t k = 0; k < system.rods.size(); ++k) {
+    const int rod = static_cast<int>(k);
+    RodProblem& problem = installed.free.rods[k];
+    const std::string name = scene.rods()[system.rods[k]]->name();
+    installed.rods.push_back(name);
+    installed.radius = std::max(installed.radius, problem.rod.largest_radius());
+    problem.surroundings = installed.surroundings.get();
+    for (const Hold& hold : problem.holds) {
+      if (!hold.position || !hold.orientation || hold.slide)
+        throw UsageError("assembly: '" + name + "' is held at " + scene.rods()[system.rods[k]]->describe(hold.at) +
+                         " in part only; connections must hold place and orientation");
+      installed.connections.push_back({name + (hold.at <= 0 ? ".start" : hold.at >= problem.rod.length * (1 - 1e-12) ? ".finish" : ".clip"), rod, -1, hold.at, true});
+      installed.connected.push_back(hold.frame);
+      add_place(installed.free, rod, hold.at);
+    }
+    problem.holds.clear();
+    for (int i = 0; i <= between; ++i) {
+      const double share = i == 0 ? 0.5 : static_cast<double>((i + 1) / 2 * (i % 2 ? 1 : -1)) / (between + 2) + 0.5;
+      installed.extra.push_back({name + "." + std::to_string(static_cast<int>(std::lround(100 * share))), rod, -1, share * problem.rod.length, false});
+      add_place(installed.free, rod, share * problem.rod.length);
+    }
+  }
+  for (std::size_t b = 0; b < system.branches.size(); ++b) {
+    BranchPoint& branch = installed.free.branches[b];
+    const std::string name = scene.branches()[system.branches[b]]->name;
+    installed.branches.push_back(name);
+    const Grip grip{name, -1, static_cast<int>(b), 0, branch.position && branch.orientation};
+    if (grip.connection) {
+      installed.connections.push_back(grip);
+      installed.connected.push_back(branch.frame);
+    } else {
+      installed.extra.push_back(grip);
+    }
+    branch.position = branch.orientation = false;
+  }
+  if (installed.connections.empty()) throw UsageError("assembly: nothing holds the rods in their routed configuration");
+  const std::optional<SystemEquilibrium> from = routed.part(routed, system.rods, system.branches);
+  installed.routed = tendril::solve(held_by(installed.free, installed.connections, installed.connected), solve, context, from ? &*from : nullptr);
+  return installed;
+}
+
+SystemProblem held_by(const SystemProblem& free, const std::vector<Grip>& grips, const std::vector<Frame>& poses) {
+  SystemProblem problem = free;
+  for (const Grip& grip : grips) {
+    if (grip.branch >= 0) problem.branches[grip.branch].position = problem.branches[grip.branch].orientation = true;
+    else problem.rods[grip.rod].holds.push_back({grip.at, Frame{}});
+  }
+  place(problem, grips, poses);
+  return problem;
+}
+
+void place(SystemProblem& problem, const std::vector<Grip>& grips, const std::vector<Frame>& poses) {
+  std::vector<int> next(problem.rods.size(), 0);
+  for (std::size_t g = 0; g < grips.size(); ++g) {
+    if (grips[g].branch >= 0) problem.branches[grips[g].branch].frame = poses[g];
+    else problem.rods[grips[g].rod].holds[next[grips[g].rod]++].frame = poses[g];
+  }
+}
+
+void set_gravity(SystemProblem& problem, const Vec3& gravity) {
+  for (RodProblem& rod : problem.rods) rod.gravity = gravity;
+}
+
+}  // namespace tendril::assembly

@@ -1,0 +1,125 @@
+#include "method/assembly/pull.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tendril::assembly {
+
+namespace {
+
+// While connections let go time stands for no way; so many radii make the steps.
+constexpr double release_way = 40;
+// Springs of connections, in EI/L^3: powers of ten at the beginning, and by how many they fall.
+constexpr double stiffest = 6, falls_by = 9;
+
+/// Where a connection's springs act: on a rod.
+struct Sprung {
+  int rod;
+  double at;
+  Frame pose;
+};
+
+std::vector<Sprung> sprung_connections(const InstalledSystem& system) {
+  std::vector<Sprung> sprung;
+  for (std::size_t c = 0; c < system.connections.size(); ++c) {
+    const Grip& grip = system.connections[c];
+    if (grip.branch < 0) {
+      sprung.push_back({grip.rod, grip.at, system.connected[c]});
+      continue;
+    }
+    const JoinedSection& section = system.free.branches[grip.branch].sections.front();
+    sprung.push_back({section.rod, section.at, system.connected[c] * section.relative});
+  }
+  return sprung;
+}
+
+/// Springs at connections of 10^power EI/L^3; nothing from t = 1 on.
+void add_springs(SystemProblem& problem, const std::vector<Sprung>& sprung, double t) {
+  if (t >= 1) return;
+  for (const Sprung& s : sprung) {
+    const Rod& rod = problem.rods[s.rod].rod;
+    const Section& section = rod.section_at(s.at);
+    const double stiffness = std::min(section.EI1, section.EI2) / std::pow(rod.length, 3) * std::pow(10, stiffest - falls_by * t);
+    problem.rods[s.rod].springs.push_back({s.at, s.pose, stiffness, 0.05 * stiffness * rod.length * rod.length});
+  }
+}
+
+/// Places at even shares of a polyline's length.
+class Along {
+ public:
+  explicit Along(const std::vector<Vec3>& points) : points_(points), begin_(1, 0.0) {
+    for (std::size_t i = 1; i < points.size(); ++i) begin_.push_back(begin_.back() + (points[i] - points[i - 1]).norm());
+  }
+  double length() const { return begin_.back(); }
+  Vec3 at(double share) const {
+    const double s = std::clamp(share, 0.0, 1.0) * length();
+    const auto after = std::upper_bound(begin_.begin(), begin_.end(), s);
+    if (after == begin_.end()) return points_.back();
+    const std::size_t i = after - begin_.begin();
+    return points_[i - 1] + (s - begin_[i - 1]) / (begin_[i] - begin_[i - 1]) * (points_[i] - points_[i - 1]);
+  }
+
+ private:
+  const std::vector<Vec3>& points_;
+  std::vector<double> begin_;
+};
+
+Drive release(const InstalledSystem& system, const Grip& handle, bool gravity, const DriveOptions& options, const SolveOptions& solve,
+              const RunContext& context) {
+  const std::vector<Sprung> sprung = sprung_connections(system);
+  const Frame held = system.pose(system.routed, handle);
+  const SystemProblem bare = held_by(system.free, {handle}, {held});
+  const ProblemPath path = [&](double t, SystemProblem& problem) {
+    problem = bare;
+    add_springs(problem, sprung, t);
+    if (!gravity) set_gravity(problem, (1 - t) * system.gravity());
+  };
+  const auto moved = [&](double from, double to) { return (to - from) * release_way * system.radius; };
+  return drive(bare, path, moved, system.routed, options, solve, context);
+}
+
+}  // namespace
+
+Pulled pull(const InstalledSystem& system, const Grip& handle, const std::vector<Vec3>& path, bool gravity, const DriveOptions& options,
+            const SolveOptions& solve, const RunContext& context) {
+  Pulled out;
+  out.released = release(system, handle, gravity, options, solve, context);
+  out.message = out.released.message;
+  if (!out.released.ok()) return out;
+  const Along along(path);
+  const SystemEquilibrium& free = out.released.passed.back().equilibrium;
+  const Frame held = system.pose(free, handle);
+  SystemProblem problem = held_by(system.free, {handle}, {held});
+  if (!gravity) set_gravity(problem, Vec3::Zero());
+  const ProblemPath moves = [&](double t, SystemProblem& moving) { place(moving, {handle}, {Frame{along.at(t), held.rotation}}); };
+  const auto moved = [&](double from, double to) { return (to - from) * along.length(); };
+  out.pulled = drive(problem, moves, moved, free, options, solve, context);
+  out.message = out.pulled.message;
+  out.ok = out.pulled.ok();
+  return out;
+}
+
+Manipulation traces(const InstalledSystem& system, const Pulled& pulled, const std::vector<Grip>& grips) {
+  Manipulation trace;
+  trace.grips = grips;
+  trace.poses.resize(grips.size());
+  const auto add = [&](const SystemEquilibrium& state) {
+    double farthest = 0;
+    for (std::size_t g = 0; g < grips.size(); ++g) {
+      const Frame pose = system.pose(state, grips[g]);
+      if (!trace.poses[g].empty()) farthest = std::max(farthest, travel(trace.poses[g].back(), pose));
+      trace.poses[g].push_back(pose);
+    }
+    trace.times.push_back(trace.times.empty() ? 0 : trace.times.back() + std::max(farthest, 1e-9));
+  };
+  for (const Passed& passed : pulled.released.passed) add(passed.equilibrium);
+  for (std::size_t i = 1; i < pulled.pulled.passed.size(); ++i) add(pulled.pulled.passed[i].equilibrium);
+  // The first state is the routed one: connections are where they belong to the last digit.
+  for (std::size_t g = 0; g < grips.size(); ++g)
+    for (std::size_t c = 0; c < system.connections.size(); ++c)
+      if (grips[g].name == system.connections[c].name) trace.poses[g].front() = system.connected[c];
+  for (double& t : trace.times) t /= trace.times.back();
+  return trace;
+}
+
+}  // namespace tendril::assembly

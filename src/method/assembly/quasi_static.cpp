@@ -1,0 +1,199 @@
+#include "method/assembly/quasi_static.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/number_text.h"
+#include "base/units.h"
+#include "statics/solve.h"
+
+namespace tendril::assembly {
+
+namespace {
+
+// Newton's passes from which on a step was easy, or hard.
+constexpr int easy = 10, hard = 25;
+constexpr double growth = 1.5, shrinking = 0.6, taken_back = 0.4;
+// A vertex jumps where it moves farther than both, in radii and in what drives.
+constexpr double jump_radii = 1.5, jump_drives = 8;
+// Of the proximal flow: how far a vertex goes in one step, in radii; stiffness and limits.
+constexpr double flow_most = 0.7, flow_least = 0.35;
+constexpr int flow_steps = 400;
+
+double farthest_move(const SystemEquilibrium& a, const SystemEquilibrium& b) {
+  double farthest = 0;
+  for (std::size_t k = 0; k < a.rods.size(); ++k)
+    for (std::size_t i = 0; i < a.rods[k].points.size(); ++i)
+      farthest = std::max(farthest, (a.rods[k].points[i] - b.rods[k].points[i]).norm());
+  return farthest;
+}
+
+class Driver {
+ public:
+  Driver(const SystemProblem& problem, const ProblemPath& path, const std::function<double(double, double)>& moved,
+         const DriveOptions& options, const SolveOptions& solve, const RunContext& context)
+      : problem_(problem), path_(path), moved_(moved), options_(options), solve_(solve), context_(context) {
+    solve_.follow = true;
+    solve_.error = false;
+  }
+
+  Drive run(const SystemEquilibrium& from) {
+    drive_.least_bend_radius = INFINITY;
+    drive_.passed.push_back({0, from, false});
+    step_ = options_.first_step * options_.radius;
+    while (t_ < 1) {
+      if (const auto stopped = context_.stop()) return end(Drive::End::stopped, name_of(*stopped));
+      if (static_cast<int>(drive_.passed.size()) > options_.most_steps) return end(Drive::End::no_equilibrium, "more steps than allowed");
+      if (!advance()) return std::move(drive_);
+    }
+    drive_.end = Drive::End::arrived;
+    return std::move(drive_);
+  }
+
+ private:
+  const SystemEquilibrium& here() const { return drive_.passed.back().equilibrium; }
+
+  Drive end(Drive::End why, const std::string& message) {
+    drive_.end = why;
+    drive_.message = message;
+    return std::move(drive_);
+  }
+
+  /// The time at which what drives has gone `way` farther.
+  double time_after(double way) const {
+    if (moved_(t_, 1) <= way) return 1;
+    double low = t_, high = 1;
+    for (int i = 0; i < 40 && high - low > 1e-12; ++i) {
+      const double middle = 0.5 * (low + high);
+      (moved_(t_, middle) <= way ? low : high) = middle;
+    }
+    return std::max(high, std::nextafter(t_, 2.0));
+  }
+
+  SystemEquilibrium solved(const SystemProblem& problem, const SystemEquilibrium& from) {
+    SystemEquilibrium found = tendril::solve(problem, solve_, context_, &from);
+    ++drive_.solves;
+    drive_.iterations += found.rods.front().iterations;
+    return found;
+  }
+
+  /// The first surface that a vertex passed through on its way, or that lies between two of them; empty: none.
+  std::string crossing(const SystemEquilibrium& from, const SystemEquilibrium& to) const {
+    for (std::size_t k = 0; k < to.rods.size(); ++k) {
+      const ContactField* field = problem_.rods[k].surroundings;
+      if (!field) continue;
+      const std::vector<Vec3> &old = from.rods[k].points, &now = to.rods[k].points;
+      for (std::size_t i = 0; i < now.size(); ++i) {
+        auto hit = field->ray(old[i], now[i]);
+        if (!hit && i + 1 < now.size()) hit = field->ray(now[i], now[i + 1]);
+        if (hit) return "passes through '" + field->name(hit->obstacle) + "' at " + number_text(to.rods[k].s[i]) + " m of rod " + std::to_string(k + 1);
+      }
+    }
+    return {};
+  }
+
+  /// One step, or the end.
+  bool advance() {
+    const double least = options_.least_step * options_.radius;
+    for (;;) {
+      const double there = time_after(step_), way = moved_(t_, there);
+      path_(there, problem_);
+      SystemEquilibrium found = solved(problem_, here());
+      if (context_.stop()) return end(Drive::End::stopped, name_of(*context_.stop())), false;
+      const int passes = found.rods.front().iterations;
+      const bool jumps = found.ok() && farthest_move(here(), found) > std::max(jump_radii * options_.radius, jump_drives * way);
+      const std::string crossed = found.ok() && !jumps ? crossing(here(), found) : std::string();
+      if (found.ok() && !jumps && crossed.empty()) {
+        if (!take(there, std::move(found), false)) return false;
+        t_ = there;
+        if (passes <= easy) step_ = std::min(growth * step_, options_.most_step * options_.radius);
+        else if (passes > hard) step_ = std::max(shrinking * step_, least);
+        return true;
+      }
+      if (step_ > least * (1 + 1e-9)) {
+        step_ = std::max(least, taken_back * step_);
+        continue;
+      }
+      if (options_.flow) return flow(there);
+      if (jumps) return end(Drive::End::snap, "snaps through"), false;
+      if (!crossed.empty()) return end(Drive::End::crossing, crossed), false;
+      const Equilibrium& first = found.rods.front();
+      return end(Drive::End::no_equilibrium, std::string("no equilibrium: ") + name_of(first.status) + " " + first.message), false;
+    }
+  }
+
+  /// Takes up a state and judges it.
+  bool take(double t, SystemEquilibrium state, bool flowed) {
+    drive_.passed.push_back({t, std::move(state), flowed});
+    for (std::size_t k = 0; k < here().rods.size(); ++k) {
+      const Equilibrium& rod = here().rods[k];
+      const double strain = rod.largest_strain(), bend = rod.smallest_bend_radius();
+      drive_.worst_strain = std::max(drive_.worst_strain, strain);
+      drive_.least_bend_radius = std::min(drive_.least_bend_radius, bend);
+      if (options_.most_strain > 0 && strain > options_.most_strain)
+        return end(Drive::End::strain, "a strain of " + number_text(100 * strain) + " % in rod " + std::to_string(k + 1)), false;
+      if (bend < options_.min_bend_radius)
+        return end(Drive::End::bend_radius, "a bend radius of " + number_text(bend / units::mm) + " mm in rod " + std::to_string(k + 1)), false;
+    }
+    return true;
+  }
+
+  /// Springs that draw every vertex to where it is, one stiffness for all rods.
+  SystemProblem drawn_back(const SystemProblem& problem, const SystemEquilibrium& state, double share) const {
+    SystemProblem drawn = problem;
+    for (std::size_t k = 0; k < drawn.rods.size(); ++k) {
+      const Equilibrium& rod = state.rods[k];
+      const Section& section = drawn.rods[k].rod.section_at(0);
+      const double length = rod.s.back(), each = std::min(section.EI1, section.EI2) * length / std::pow(length, 4);
+      for (std::size_t i = 0; i < rod.s.size(); ++i)
+        drawn.rods[k].springs.push_back({rod.s[i], {rod.points[i], rod.rotations[i]}, share * each / static_cast<double>(rod.s.size() - 1), 0});
+    }
+    return drawn;
+  }
+
+  /// From the present state down to an equilibrium at t, which is elsewhere, in steps of less than a radius.
+  bool flow(double t) {
+    path_(t, problem_);
+    ++drive_.snaps;
+    double share = 10;
+    for (int i = 0; i < flow_steps; ++i) {
+      if (context_.stop()) return end(Drive::End::stopped, name_of(*context_.stop())), false;
+      SystemEquilibrium found = solved(drawn_back(problem_, here(), share), here());
+      const double move = found.ok() ? farthest_move(here(), found) : INFINITY;
+      if (!found.ok() || move > flow_most * options_.radius || !crossing(here(), found).empty()) {
+        share *= 4;
+        if (share > 1e12) return end(Drive::End::no_equilibrium, "finds no way down from where it snaps through"), false;
+        continue;
+      }
+      if (!take(t, std::move(found), true)) return false;
+      if (move < flow_least * options_.radius) share /= 2;
+      if (move > 0.1 * options_.radius && share > 1e-6) continue;
+      SystemEquilibrium free = solved(problem_, here());
+      if (free.ok() && farthest_move(here(), free) <= jump_radii * options_.radius && crossing(here(), free).empty()) {
+        if (!take(t, std::move(free), false)) return false;
+        t_ = t;
+        step_ = options_.first_step * options_.radius;
+        return true;
+      }
+    }
+    return end(Drive::End::no_equilibrium, "does not come to rest after it snaps through"), false;
+  }
+
+  SystemProblem problem_;
+  const ProblemPath& path_;
+  const std::function<double(double, double)>& moved_;
+  const DriveOptions& options_;
+  SolveOptions solve_;
+  const RunContext& context_;
+  Drive drive_;
+  double t_ = 0, step_ = 0;
+};
+
+}  // namespace
+
+Drive drive(const SystemProblem& problem, const ProblemPath& path, const std::function<double(double from, double to)>& moved,
+            const SystemEquilibrium& from, const DriveOptions& options, const SolveOptions& solve, const RunContext& context) {
+  return Driver(problem, path, moved, options, solve, context).run(from);
+}
+
+}  // namespace tendril::assembly
