@@ -77,6 +77,28 @@ Schema obstacle_options() {
   };
 }
 
+decltype(Obstacle::shape) make_shape(lua_State* L, const std::string& name, const ObstacleSource& source, const Options& o) {
+  if (const SolidValue* solid = std::get_if<SolidValue>(&source)) {
+    if (o.has("unit")) throw UsageError(o.who() + ": 'unit' belongs to files and mesh data; a solid's sizes are in m");
+    return solid->solid;
+  }
+  if (const MeshValue* mesh = std::get_if<MeshValue>(&source)) {
+    if (o.has("unit")) throw UsageError(o.who() + ": 'unit' belongs to files and mesh data; a mesh is in m");
+    return mesh->surface;
+  }
+  const double scale = metres_per(o.maybe<std::string>("unit").value_or("m"));
+  if (const Mesh* data = std::get_if<Mesh>(&source)) {
+    Mesh mesh = *data;
+    mesh.name = name;
+    for (Vec3& v : mesh.vertices) v *= scale;
+    return std::make_shared<const TriangleSurface>(std::move(mesh));
+  }
+  const std::string& path = std::get<std::string>(source);
+  if (!o.has("unit"))
+    throw UsageError(o.who() + ": 'unit' is missing: files do not say it, and it is never guessed; give unit = \"mm\", \"cm\", \"m\" or \"in\"");
+  return surface_from_file(L, o.who().c_str(), path, scale);
+}
+
 PlacedObstacle make_obstacle(lua_State* L, const std::string& name, const ObstacleSource& source, const Options& o) {
   PlacedObstacle obstacle;
   obstacle.name = name;
@@ -84,28 +106,7 @@ PlacedObstacle make_obstacle(lua_State* L, const std::string& name, const Obstac
   obstacle.clearance = o.get<double>("clearance");
   obstacle.prefer = preference_of(o.get<std::string>("prefer"));
   obstacle.clip = o.get<bool>("clip");
-  if (const SolidValue* solid = std::get_if<SolidValue>(&source)) {
-    if (o.has("unit")) throw UsageError("scene:obstacle: 'unit' belongs to files and mesh data; a solid's sizes are in m");
-    obstacle.body.shape = solid->solid;
-    return obstacle;
-  }
-  if (const MeshValue* mesh = std::get_if<MeshValue>(&source)) {
-    if (o.has("unit")) throw UsageError("scene:obstacle: 'unit' belongs to files and mesh data; a mesh is in m");
-    obstacle.body.shape = mesh->surface;
-    return obstacle;
-  }
-  const double scale = metres_per(o.maybe<std::string>("unit").value_or("m"));
-  if (const Mesh* data = std::get_if<Mesh>(&source)) {
-    Mesh mesh = *data;
-    mesh.name = name;
-    for (Vec3& v : mesh.vertices) v *= scale;
-    obstacle.body.shape = std::make_shared<const TriangleSurface>(std::move(mesh));
-    return obstacle;
-  }
-  const std::string& path = std::get<std::string>(source);
-  if (!o.has("unit"))
-    throw UsageError("scene:obstacle: 'unit' is missing: files do not say it, and it is never guessed; give unit = \"mm\", \"cm\", \"m\" or \"in\"");
-  obstacle.body.shape = surface_from_file(L, "scene:obstacle", path, scale);
+  obstacle.body.shape = make_shape(L, name, source, o);
   return obstacle;
 }
 

@@ -22,6 +22,10 @@ using ObstacleSource = std::variant<std::string, SolidValue, MeshValue, Mesh>;
 
 Schema obstacle_options();
 
+/// What is given, with options 'unit' among `o`; `name`: of the mesh. Reads the file when there is one. Throws UsageError for a file
+/// that is missing, broken, or given without its unit.
+decltype(Obstacle::shape) make_shape(lua_State* L, const std::string& name, const ObstacleSource& source, const Options& o);
+
 /// Reads the file when there is one. Throws UsageError for a file that is missing, broken, or given without its unit.
 PlacedObstacle make_obstacle(lua_State* L, const std::string& name, const ObstacleSource& source, const Options& o);
 

@@ -1,9 +1,11 @@
 // view: pictures of a scene and its equilibrium.
 #include "base/nearest_name.h"
+#include "binding/assembly_classes.h"
 #include "binding/bind_mesh.h"
 #include "binding/card.h"
-#include "binding/compose_picture.h"
+#include "binding/compose_assembly.h"
 #include "binding/examples.h"
+#include "binding/flatten_classes.h"
 #include "binding/lua_class.h"
 #include "binding/open.h"
 #include "binding/preform_classes.h"
@@ -20,6 +22,7 @@ struct View {
   std::shared_ptr<Scene> scene;
   std::shared_ptr<SceneEquilibrium> equilibrium;  ///< null: the scene is not solved
   PictureWish wish;
+  std::shared_ptr<const assembly::Result> installation;  ///< several states of it; null: none
 };
 
 namespace {
@@ -30,9 +33,10 @@ using OneOrMany = std::variant<std::string, std::vector<std::string>>;
 /// Scenes and what was found in them, shared and not copied.
 struct ShownKind {
   static const Kind& kind() {
-    static const Kind kind{"a scene, an equilibrium, hoses, a hose or routes", "scene|equilibrium|preform_result|hose|routes", [](lua_State* L, int index) {
+    static const Kind kind{"a scene, an equilibrium, hoses, a hose, routes, an assembly or a board", "scene|equilibrium|preform_result|hose|routes|assembly|board", [](lua_State* L, int index) {
       const bool fits = object<Scene>(L, index) || object<SceneEquilibrium>(L, index) || object<PreformHandle>(L, index) ||
-                        object<HoseHandle>(L, index) || object<RoutesHandle>(L, index);
+                        object<HoseHandle>(L, index) || object<RoutesHandle>(L, index) || object<AssemblyHandle>(L, index) ||
+                        object<FlattenHandle>(L, index);
       return fits ? std::string() : describe(L, index);
     }};
     return kind;
@@ -53,7 +57,7 @@ Schema view_options() {
                                         "obstacles are to it, and the rods are plain"),
       option<std::string>("title", "", "On the card"),
   }
-      .with_list(ShownKind::kind(), "what", "The scene, its equilibrium, hoses of method.preform (all, or one to colour it by its clearance), routes of method.route as they are nominally");
+      .with_list(ShownKind::kind(), "what", "The scene, its equilibrium, hoses of method.preform (all, or one to colour it by its clearance), routes of method.route as they are nominally, an installation by method.assembly, a build board by method.flatten");
 }
 
 Schema save_options() {
@@ -61,6 +65,7 @@ Schema save_options() {
              option<std::array<int, 2>>("size", "pixels", "{width, height}; default {1600, 1200}"),
              option<std::vector<std::string>>("sheet", "", "Views in rows of two: \"iso\", \"front\", \"top\", \"side\", \"card\"; "
                                                            "default iso, front, top and card"),
+             option<int>("frames", "", "States of an assembly that are shown, the routed one among them").at_least(1).at_most(100).preset(6),
              option<OneOrMany>("fit", "", "Rod, obstacle or \"envelope\", or a list, that fills each view; default: rods and envelope"),
          } + timeout_schema();
 }
@@ -119,12 +124,34 @@ bool read_hoses(lua_State* L, View& view) {
   return true;
 }
 
+void show_equilibrium(View& view, std::shared_ptr<const SceneEquilibrium> equilibrium) {
+  if (view.equilibrium) throw UsageError("view.new: got two equilibria, expected at most one");
+  view.equilibrium = std::const_pointer_cast<SceneEquilibrium>(std::move(equilibrium));
+}
+
+/// The same of an installation or a build board.
+bool read_assembly(lua_State* L, View& view) {
+  if (const AssemblyHandle* assembly = object<AssemblyHandle>(L, -1)) {
+    if (assembly->result->play.empty()) throw UsageError("view.new: the assembly has no states to show: " + assembly->result->message);
+    show_equilibrium(view, assembly->result->play.back().equilibrium);
+    view.installation = assembly->result;
+    return true;
+  }
+  const FlattenHandle* board = object<FlattenHandle>(L, -1);
+  if (!board) return false;
+  if (!board->result->equilibrium) throw UsageError("view.new: the board has no layout to show: " + board->result->message);
+  show_equilibrium(view, board->result->equilibrium);
+  view.wish.extras = extras_of(*board->result);
+  view.wish.views = {"top", "card"};
+  return true;
+}
+
 void read_shown(lua_State* L, const Options& o, View& view) {
   const lua_Integer count = o.index() ? luaL_len(L, o.index()) : 0;
   for (lua_Integer i = 1; i <= count; ++i) {
     lua_geti(L, o.index(), i);
     const bool scene = object<Scene>(L, -1) != nullptr;
-    if (!read_hoses(L, view) && !read_routes(L, view)) {
+    if (!read_hoses(L, view) && !read_routes(L, view) && !read_assembly(L, view)) {
       if (scene ? view.scene != nullptr : view.equilibrium != nullptr)
         throw UsageError(std::string("view.new: got two ") + (scene ? "scenes" : "equilibria") + ", expected at most one of each");
       if (scene) view.scene = Value<std::shared_ptr<Scene>>::read(L, -1);
@@ -161,6 +188,7 @@ SavedFile save_view(lua_State* L, const View& view, const std::string& path, con
     if (const std::string* one = std::get_if<std::string>(&*fit)) wish.fit = {*one};
     else wish.fit = std::get<std::vector<std::string>>(*fit);
   }
+  if (view.installation) wish.extras = extras_of(*view.installation, o.get<int>("frames"));
   const Picture picture = compose_picture(*view.scene, view.equilibrium.get(), wish);
   const PictureReport report = save_picture(picture, path, run_context(L, o));
   return {path, report.status, report.seconds};

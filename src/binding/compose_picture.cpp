@@ -208,6 +208,7 @@ Picture compose_picture(const Scene& scene, const SceneEquilibrium* eq, const Pi
     if (!eq) picture.card.title = wish.title.empty() ? "designs" : wish.title;
     add_designs(wish.designs, picture);
   }
+  picture.tubes.insert(picture.tubes.end(), wish.extras.tubes.begin(), wish.extras.tubes.end());
   for (const PictureTube& tube : picture.tubes) shown.rods.extend(box_of_tube(tube));
   if (!eq)
     for (const auto& rod : scene.rods())
@@ -226,6 +227,9 @@ Picture compose_picture(const Scene& scene, const SceneEquilibrium* eq, const Pi
                          {"obstacles", std::to_string(scene.obstacles().size()), false},
                          {"tendril", TENDRIL_VERSION, false}};
   }
+  picture.paths = wish.extras.paths;
+  picture.labels.insert(picture.labels.end(), wish.extras.labels.begin(), wish.extras.labels.end());
+  picture.card.rows.insert(picture.card.rows.end(), wish.extras.rows.begin(), wish.extras.rows.end());
   if (wish.envelope) {
     shown.envelope = wish.envelope->box();
     add_envelope(wish.envelope, shown.obstacles, shell_coloured, picture);

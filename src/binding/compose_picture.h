@@ -15,6 +15,14 @@ namespace tendril {
 /// What the colour of a rod says. plain: PictureWish::plain. moves: PictureWish::moves.
 enum class RodColour { clearance, curvature, tension, twist, plain, moves };
 
+/// Drawn beside the scene and its equilibrium, and rows for the card.
+struct PictureExtras {
+  std::vector<PictureTube> tubes;
+  std::vector<PicturePath> paths;
+  std::vector<PictureLabel> labels;
+  std::vector<PictureCard::Row> rows;
+};
+
 struct PictureWish {
   RodColour colour = RodColour::clearance;
   Rgb plain{0.20f, 0.42f, 0.65f};
@@ -29,6 +37,7 @@ struct PictureWish {
   std::shared_ptr<const TriangleSurface> envelope;
   std::vector<PictureDesign> designs;     ///< drawn besides; without an equilibrium the card speaks of them
   std::optional<ColourScale> gap_scale;   ///< of the designs' gaps
+  PictureExtras extras;
 };
 
 /// Throws UsageError for obstacles to ghost that are not there.

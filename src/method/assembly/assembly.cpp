@@ -6,6 +6,7 @@
 #include "base/number_text.h"
 #include "base/units.h"
 #include "method/assembly/handle_path.h"
+#include "method/assembly/key_frames.h"
 #include "method/assembly/path_smoothing.h"
 #include "method/assembly/proof.h"
 #include "method/assembly/pull.h"
@@ -72,6 +73,7 @@ void keep(Work& work, const Manipulation& forward, Played& played, const HandleP
   r.proof = played.proof;
   r.handle_path = path.points;
   r.hands = static_cast<int>(forward.grips.size());
+  r.play = key_frames(work.scene, work.system, forward, played, work.options.solve);
 }
 
 /// One handle along one path: pull, trace, play each style. True: proven.

@@ -5,19 +5,23 @@
 #include <queue>
 
 #include "base/nearest_name.h"
+#include "base/number_text.h"
 #include "statics/solve.h"
 
 namespace tendril::assembly {
 
 namespace {
 
-/// The one system that has all these rods, by number in scene.systems().
-Scene::System system_of(const Scene& scene, const std::vector<std::string>& rods) {
+void add_place(SystemProblem& problem, int rod, double at) { problem.rods[rod].springs.push_back({at, Frame{}, 0, 0}); }
+
+}  // namespace
+
+Scene::System system_of(const Scene& scene, const std::vector<std::string>& rods, const std::string& who) {
   std::vector<std::string> names;
   for (const auto& rod : scene.rods()) names.push_back(rod->name());
-  if (names.empty()) throw UsageError("assembly: the scene has no rods");
+  if (names.empty()) throw UsageError(who + ": the scene has no rods");
   for (const std::string& wanted : rods)
-    if (std::find(names.begin(), names.end(), wanted) == names.end()) throw UsageError("assembly: unknown " + unknown_name(wanted, "rods", names));
+    if (std::find(names.begin(), names.end(), wanted) == names.end()) throw UsageError(who + ": unknown " + unknown_name(wanted, "rods", names));
   const std::string first = rods.empty() ? names.front() : rods.front();
   for (Scene::System& system : scene.systems()) {
     const auto has = [&](const std::string& name) {
@@ -26,15 +30,11 @@ Scene::System system_of(const Scene& scene, const std::vector<std::string>& rods
     if (!has(first)) continue;
     for (const std::string& wanted : rods.empty() ? names : rods)
       if (!has(wanted))
-        throw UsageError("assembly: rods '" + first + "' and '" + wanted + "' do not hang together; install them one after the other ('rods' names those of one)");
+        throw UsageError(who + ": rods '" + first + "' and '" + wanted + "' do not hang together; take them one after the other ('rods' names those of one)");
     return system;
   }
-  throw UsageError("assembly: rod '" + first + "' belongs to no system");
+  throw UsageError(who + ": rod '" + first + "' belongs to no system");
 }
-
-void add_place(SystemProblem& problem, int rod, double at) { problem.rods[rod].springs.push_back({at, Frame{}, 0, 0}); }
-
-}  // namespace
 
 Frame InstalledSystem::pose(const SystemEquilibrium& state, const Grip& grip) const {
   if (grip.branch >= 0) return state.branches[grip.branch];
@@ -81,7 +81,7 @@ double InstalledSystem::arm(const Grip& grip) const {
 
 InstalledSystem installed_system(const Scene& scene, const std::vector<std::string>& rods, int between, const SolveOptions& solve,
                                  const RunContext& context) {
-  const Scene::System system = system_of(scene, rods);
+  const Scene::System system = system_of(scene, rods, "assembly");
   InstalledSystem installed;
   installed.surroundings = scene.surroundings();
   installed.free = system.problem;
@@ -97,7 +97,8 @@ InstalledSystem installed_system(const Scene& scene, const std::vector<std::stri
       if (!hold.position || !hold.orientation || hold.slide)
         throw UsageError("assembly: '" + name + "' is held at " + scene.rods()[system.rods[k]]->describe(hold.at) +
                          " in part only; connections must hold place and orientation");
-      installed.connections.push_back({name + (hold.at <= 0 ? ".start" : hold.at >= problem.rod.length * (1 - 1e-12) ? ".finish" : ".clip"), rod, -1, hold.at, true});
+      const std::string where = hold.at <= 0 ? "start" : hold.at >= problem.rod.length * (1 - 1e-12) ? "finish" : number_text(hold.at);
+      installed.connections.push_back({name + "." + where, rod, -1, hold.at, true});
       installed.connected.push_back(hold.frame);
       add_place(installed.free, rod, hold.at);
     }

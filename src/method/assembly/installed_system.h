@@ -27,6 +27,10 @@ struct InstalledSystem {
   double arm(const Grip& grip) const;
 };
 
+/// The one system that has all rods named (empty: all of the scene). Throws UsageError, in the name of `who`, for a scene without
+/// rods, unknown names and rods that do not hang together.
+Scene::System system_of(const Scene& scene, const std::vector<std::string>& rods, const std::string& who);
+
 /// The rods named (empty: all), with `between` further places for grips on each rod beside its middle. Throws UsageError where they
 /// do not hang together or nothing holds them.
 InstalledSystem installed_system(const Scene& scene, const std::vector<std::string>& rods, int between, const SolveOptions& solve,
