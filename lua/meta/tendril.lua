@@ -486,6 +486,79 @@ function equilibrium_methods:rod(name) end
 ---@field [string] any
 local gradient_methods = {}
 
+---Where a grip is over the common time: path(t) is its frame at t = 0 ... 1
+---@class grip_path
+---@field connection boolean It is held in the routed configuration; else it lets go at the end
+---@field frames (frame)[] At those times
+---@field name string "hose.start", or a branch point's name
+---@field rod string? Name of the rod that is gripped; nil: a branch point
+---@field s number? Arc length of the grip on its rod; nil: a branch point (m)
+---@field times (number)[] Rising from 0 to 1
+local grip_path_methods = {}
+
+---Its frame at t = 0 ... 1; path(t) says the same.
+---@param t number
+---@return frame
+function grip_path_methods:at(t) end
+
+---The paths of all grips, by name or number: #paths, paths[i]
+---@class grip_paths
+---@field [string] any
+---@field [integer] any
+---@operator len: integer
+local grip_paths_methods = {}
+
+---The worst of all states on the way in
+---@class assembly_worst
+---@field bend_radius number The smallest (m)
+---@field clearance number The smallest; negative: so deep in contact (m)
+---@field strain number Of the outermost fibre
+---@field when table<string, number> {strain =, bend_radius =, clearance =}: t = 0 ... 1 of each
+---@field where table<string, string> {strain =, bend_radius =, clearance =}: names of rods and of the nearest obstacle
+local assembly_worst_methods = {}
+
+---How the manipulation was played forward
+---@class assembly_proof
+---@field deviation number Of the last state from the routed configuration, at most (m)
+---@field message string What went wrong, where
+---@field ok boolean Proven
+---@field steps integer Equilibria on the way
+local assembly_proof_methods = {}
+
+---A manipulation that installs a system of rods, or why none was found
+---@class assembly
+---@field attempts integer That were made
+---@field duration number Of the common time: t = 1 (s)
+---@field handle_path (vec)[] Of the handle, outwards, as it was searched (m)
+---@field hands integer Grips at the same time, at most
+---@field message string How it ends, or what stopped the best attempt, and where
+---@field ok boolean Found, and proven by playing it forward
+---@field paths grip_paths Where each grip is: paths["hose.start"](t), t = 0 ... 1 from outside to the routed configuration
+---@field proof assembly_proof How the forward play went
+---@field seconds number Run time (s)
+---@field status string "solved", "infeasible", "stalled", "cancelled", "timeout"
+---@field steps (step)[] Name, seconds, counts of each
+---@field worst assembly_worst Strain, bend radius and clearance on the way, when and where
+local assembly_methods = {}
+
+---@class (exact) tendril.assembly.chart.options
+---@field title? string Above it; default: "Installation"
+
+---Strain, bend radius and clearance over time, one below the other.
+---@param options? tendril.assembly.chart.options
+---@return sheet
+function assembly_methods:chart(options) end
+
+---The equilibrium that was played nearest to t = 0 ... 1; at 1 the connections alone hold it.
+---@param t number
+---@return equilibrium
+function assembly_methods:frame(t) end
+
+---Writes the paths of all grips into a .csv or .json: s, mm, quaternions.
+---@param path string
+---@return saved_file
+function assembly_methods:save(path) end
+
 ---How an envelope was made
 ---@class envelope_report
 ---@field failed integer Outcomes without an equilibrium: not contained
@@ -560,6 +633,41 @@ function motion_methods:clearance(options) end
 ---@param options? tendril.motion.envelope.options
 ---@return mesh, envelope_report
 function motion_methods:envelope(options) end
+
+---A junction or a free end on a build board
+---@class board_point
+---@field at vec Board axes: z = 0 (m)
+---@field name string Of the branch point, or "rod.finish"
+local board_point_methods = {}
+
+---A rod on a build board
+---@class board_line
+---@field design_length number Unstressed (m)
+---@field length number On the board (m)
+---@field points (vec)[] Board axes (m)
+---@field rod string Its name
+local board_line_methods = {}
+
+---A layout on a plane build board; draw it with view.new{board}
+---@class board
+---@field crossings integer That are left
+---@field equilibrium equilibrium On the board; nil: none
+---@field height number Of the board (m)
+---@field lines (board_line)[] Rods
+---@field message string How it lies; what crosses or is strained
+---@field ok boolean It lies flat, without crossings, as far apart as asked for
+---@field points (board_point)[] Junctions and free ends
+---@field seconds number Run time (s)
+---@field status string "solved", "infeasible", "stalled", "cancelled", "timeout"
+---@field steps (step)[] Name, seconds, counts of each
+---@field strain number Of lying flat, at most
+---@field width number Of the board (m)
+local board_methods = {}
+
+---Writes the layout into a .csv, in mm: junctions and ends, then the points of each rod.
+---@param path string
+---@return saved_file
+function board_methods:save(path) end
 
 ---One branch of a routed harness
 ---@class harness_branch
@@ -991,6 +1099,7 @@ local view_methods = {}
 ---@class (exact) tendril.view.save.options
 ---@field size? (integer)[] {width, height}; default {1600, 1200} (pixels)
 ---@field sheet? (string)[] Views in rows of two: "iso", "front", "top", "side", "card"; default iso, front, top and card
+---@field frames? integer States of an assembly that are shown, the routed one among them (1 ... 100; default 6)
 ---@field fit? string|(string)[] Rod, obstacle or "envelope", or a list, that fills each view; default: rods and envelope
 ---@field timeout? number Give up after this time, with the best state so far; default: never (s; > 0 and <= 1000000000)
 
@@ -1275,6 +1384,45 @@ function scene.plane(options) end
 ---What engineers do with scenes: analyses and searches that take a scene and never change it
 method = {}
 
+---@class (exact) tendril.method.assembly.options
+---@field rods? (string)[] Names; default: all of the scene, which must hang together
+---@field connectors? ({name: string, rod: string, at: string?, size: vec?, shape: any?, unit: string?, pose: frame?})[] List of {name =, rod =, at = "start" or "finish", size = or shape =}: rigid bodies at the ends of rods, which collide too
+---@field exit? frame|vec|number[] Where the handle must get to; default: anywhere with room (m)
+---@field grip? string Rod or branch point to pull it out by; default: chosen
+---@field grip_at? number Arc length of the handle on that rod; default: its middle (m; >= 0)
+---@field max_strain? number Of the outermost fibre, all the way (> 0; default 0.3)
+---@field min_bend_radius? number All the way (m; >= 0; default 0)
+---@field deviation? number How near the last state must be to the routed one, in radii of the thickest rod (> 0 and <= 10; default 0.05)
+---@field attempts? integer Handles, paths, grips that are tried, at most (1 ... 10000; default 12)
+---@field optimise? boolean Make what was found shorter, smoother, with more clearance and fewer grips (default true)
+---@field optimise_seconds? number For that, at most (s; >= 0; default 5)
+---@field element? "se3"|"staggered" Rod element: fourth order, or the second-order reference element (default "se3")
+---@field clamp? "half_cell"|"thesis" How the staggered element clamps an end: second order, or the thesis's first order (default "half_cell")
+---@field tolerance? number Largest last step: rotations in rad, positions over the length (1e-14 ... 0.01; default 1e-09)
+---@field clearance? "judge"|"push" What obstacles' required clearances do: judged after the solve, or kept: contact then acts that far off, growing from nothing at holds (default "judge")
+---@field error? boolean Also estimate the discretisation error (default false)
+---@field seed? integer Of all random numbers: the same seed gives the same bits (>= 0; default 1)
+---@field threads? integer At most; default: all that the machine has (1 ... 4096)
+---@field progress? function function(share, what), called now and then
+---@field timeout? number Give up after this time, with the best state so far; default: never (s; > 0 and <= 1000000000)
+
+---A manipulation that brings a system of rods to its routed configuration, proven by playing it forward under gravity and in contact.
+---@param scene scene
+---@param options? tendril.method.assembly.options
+---@return assembly
+function method.assembly(scene, options) end
+
+---@class (exact) tendril.method.flatten.options
+---@field rods? (string)[] Names; default: all of the scene, which must hang together
+---@field spacing? number Least distance between axes of rods that do not meet; 0: four times the thickest radius (m; >= 0; default 0)
+---@field timeout? number Give up after this time, with the best state so far; default: never (s; > 0 and <= 1000000000)
+
+---Gravity and surroundings off: a system of rods relaxed to its own shape, then laid on a plane build board without crossings.
+---@param scene scene
+---@param options? tendril.method.flatten.options
+---@return board
+function method.flatten(scene, options) end
+
 ---@class (exact) tendril.method.harness.options
 ---@field connections (frame)[] Two to nine places, each with the direction in which its branch leaves
 ---@field names? (string)[] Of the connections; default "1", "2" ...
@@ -1509,7 +1657,7 @@ function method.variation(scene, options) end
 view = {}
 
 ---@class (exact) tendril.view.new.options
----@field [integer] scene|equilibrium|preform_result|hose|routes The scene, its equilibrium, hoses of method.preform (all, or one to colour it by its clearance), routes of method.route as they are nominally
+---@field [integer] scene|equilibrium|preform_result|hose|routes|assembly|board The scene, its equilibrium, hoses of method.preform (all, or one to colour it by its clearance), routes of method.route as they are nominally, an installation by method.assembly, a build board by method.flatten
 ---@field color? string|(number)[]|stability What the rods' colour says: "clearance", "curvature", "tension", "twist", {r, g, b} from 0 to 1, or a stability: how far tolerances move it; default: clearance when there are obstacles, else curvature
 ---@field ghost? (string)[] Obstacles to see through, the others are solid; default: all
 ---@field envelope? mesh A shell around the rods to see through; with color = "clearance" its colours say how near obstacles are to it, and the rods are plain

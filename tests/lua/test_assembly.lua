@@ -113,6 +113,7 @@ check.case("files: every grip at every time", function()
   a:save(folder .. "/paths.json")
   check.contains(read(folder .. "/paths.json"), "\"duration\": 1", "\"name\": \"hose.start\", \"connection\": true")
   check.is_true(a:chart{}:save(folder .. "/chart.svg").ok)
+  check.is_true(view.new{a, color = {0.2, 0.4, 0.7}}:save(folder .. "/strip.png", {frames = 4, size = {400, 300}, sheet = {"top"}}).ok)
 end)
 
 check.case("errors name what is wrong", function()
