@@ -29,6 +29,23 @@ check.case("a routed harness lies flat, with the lengths of its rods", function(
   check.equal(#board.equilibrium.rods, 3)
 end)
 
+check.case("a harness of thirteen branches past a box: no crossings, lengths kept, all in the plane", function()
+  local world = scene.new{gravity = {0, 0, -9.81}}
+  world:obstacle("box", scene.box{size = {0.3, 0.2, 0.2}}, {pose = frame{at = {0.5, 0, -0.05}, along = {0, 0, 1}}})
+  local function place(at, along) return frame{at = at, along = along} end
+  local large = method.harness(world, {section = cable, min_bend_radius = 40*mm, bundling = 0.8, clearance = 5*mm, refine = false,
+    connections = {place({0, 0, 0}, {1, 0, 0}), place({1, 0.3, 0}, {-1, 0, 0}), place({1, -0.3, 0}, {-1, 0, 0}), place({0.7, 0.4, 0.2}, {0, -1, 0}),
+                   place({0.7, -0.4, 0.2}, {0, 1, 0}), place({1.1, 0, 0.3}, {-1, 0, 0}), place({0.2, 0.4, -0.1}, {0, -1, 0}), place({0.2, -0.4, 0.1}, {0, 1, 0})}})
+  local flat = method.flatten(large:scene())
+  check.is_true(flat.ok, flat.message)
+  check.equal(flat.crossings, 0)
+  check.equal(#flat.lines, #large.branches)
+  for _, line in ipairs(flat.lines) do
+    check.near(line.length, line.design_length, 1e-3 * line.design_length)
+    for _, p in ipairs(line.points) do check.near(p.z, 0, 1e-6) end
+  end
+end)
+
 check.case("files and pictures", function()
   board:save(folder .. "/board.csv")
   local file = assert(io.open(folder .. "/board.csv"))
