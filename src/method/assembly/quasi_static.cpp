@@ -13,6 +13,8 @@ namespace {
 
 // Newton's passes from which on a step was easy, or hard.
 constexpr int easy = 10, hard = 25;
+// A step that needs more is better halved, as long as it can be.
+constexpr int most_passes = 100;
 constexpr double growth = 1.5, shrinking = 0.6, taken_back = 0.4;
 // A vertex jumps where it moves farther than both, in radii and in what drives.
 constexpr double jump_radii = 1.5, jump_drives = 8;
@@ -42,8 +44,14 @@ class Driver {
     drive_.passed.push_back({0, from, false});
     step_ = options_.first_step * options_.radius;
     while (t_ < 1) {
-      if (const auto stopped = context_.stop()) return end(Drive::End::stopped, name_of(*stopped));
-      if (static_cast<int>(drive_.passed.size()) > options_.most_steps) return end(Drive::End::no_equilibrium, "more steps than allowed");
+      if (const auto stopped = context_.stop()) {
+        end(Drive::End::stopped, name_of(*stopped));
+        return std::move(drive_);
+      }
+      if (static_cast<int>(drive_.passed.size()) > options_.most_steps) {
+        end(Drive::End::no_equilibrium, "more steps than allowed");
+        return std::move(drive_);
+      }
       if (!advance()) return std::move(drive_);
     }
     drive_.end = Drive::End::arrived;
@@ -53,10 +61,9 @@ class Driver {
  private:
   const SystemEquilibrium& here() const { return drive_.passed.back().equilibrium; }
 
-  Drive end(Drive::End why, const std::string& message) {
+  void end(Drive::End why, const std::string& message) {
     drive_.end = why;
     drive_.message = message;
-    return std::move(drive_);
   }
 
   /// The time at which what drives has gone `way` farther.
@@ -98,6 +105,7 @@ class Driver {
     for (;;) {
       const double there = time_after(step_), way = moved_(t_, there);
       path_(there, problem_);
+      solve_.max_iterations = step_ > least * (1 + 1e-9) ? std::min(all_passes_, most_passes) : all_passes_;
       SystemEquilibrium found = solved(problem_, here());
       if (context_.stop()) return end(Drive::End::stopped, name_of(*context_.stop())), false;
       const int passes = found.rods.front().iterations;
@@ -184,6 +192,7 @@ class Driver {
   const std::function<double(double, double)>& moved_;
   const DriveOptions& options_;
   SolveOptions solve_;
+  const int all_passes_ = solve_.max_iterations;
   const RunContext& context_;
   Drive drive_;
   double t_ = 0, step_ = 0;
