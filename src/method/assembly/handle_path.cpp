@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <queue>
+#include <unordered_map>
 
 #include "base/number_text.h"
 #include "base/units.h"
@@ -28,7 +29,6 @@ class Grid {
  public:
   Grid(const FreeSpace& space, double step) : space_(space), step_(step), corner_(space.region().min()) {
     for (int k = 0; k < 3; ++k) size_[k] = static_cast<int>(space.region().sizes()[k] / step) + 1;
-    distance_.assign(nodes(), -1.0f);
   }
   long nodes() const { return static_cast<long>(size_[0]) * size_[1] * size_[2]; }
   Vec3 place(long node) const { return corner_ + step_ * cell(node).cast<double>(); }
@@ -46,8 +46,9 @@ class Grid {
 
   /// m from the nearest surface: exact up to `near`, beyond that the field's lower bound.
   double distance(long node, double near) {
-    float& known = distance_[node];
-    if (known >= 0) return known;
+    const auto [entry, is_new] = distance_.try_emplace(node, 0.0f);
+    float& known = entry->second;
+    if (!is_new) return known;
     const Vec3 p = place(node);
     const double radius = space_.demands().radius, low = space_.bounds(p).low + radius;
     known = static_cast<float>(low > near ? low : std::max(0.0, std::max(low, space_.gap(p, near).value + radius)));
@@ -59,16 +60,16 @@ class Grid {
   double step_;
   Vec3 corner_;
   std::array<int, 3> size_;
-  std::vector<float> distance_;
+  std::unordered_map<long, float> distance_;  // few of the nodes are ever looked at
 };
 
 struct Waiting {
-  double cost;
+  double bound, cost;  ///< of the whole way at least; up to here
   long node;
-  bool operator<(const Waiting& other) const { return cost > other.cost || (cost == other.cost && node > other.node); }
+  bool operator<(const Waiting& other) const { return bound > other.bound || (bound == other.bound && node > other.node); }
 };
 
-/// Dijkstra's search for a ball from the handle to where it may end.
+/// The A* search for a ball from the handle to where it may end.
 class Search {
  public:
   Search(Grid& grid, const Vec3& from, const HandlePathOptions& options, double ball, const RunContext& context)
@@ -76,21 +77,20 @@ class Search {
 
   /// Outwards; empty: there is no way.
   std::vector<Vec3> run() {
-    std::vector<double> cost(grid_.nodes(), INFINITY);
-    std::vector<long> parent(grid_.nodes(), -1);
     std::priority_queue<Waiting> waiting;
     const Eigen::Vector3i middle = grid_.nearest(from_);
     for (int i = 0; i < 27; ++i) {
       const Eigen::Vector3i c = middle + Eigen::Vector3i(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
       if (!grid_.holds(c) || !passes(grid_.node(c))) continue;
-      cost[grid_.node(c)] = price(grid_.node(c)) * (grid_.place(grid_.node(c)) - from_).norm();
-      waiting.push({cost[grid_.node(c)], grid_.node(c)});
+      const double cost = price(grid_.node(c)) * (grid_.place(grid_.node(c)) - from_).norm();
+      labels_[grid_.node(c)] = {cost, -1};
+      waiting.push({cost + still(grid_.node(c)), cost, grid_.node(c)});
     }
     for (long popped = 0; !waiting.empty(); ++popped) {
       const Waiting next = waiting.top();
       waiting.pop();
-      if (next.cost > cost[next.node]) continue;
-      if (is_out(next.node)) return way_to(next.node, parent);
+      if (next.cost > labels_[next.node].cost) continue;
+      if (is_out(next.node)) return way_to(next.node);
       if (popped % 1024 == 0 && context_.stop()) return {};
       for (const Roadmap::Neighbour& n : Roadmap::neighbours()) {
         const Eigen::Vector3i c = grid_.cell(next.node) + Eigen::Vector3i(n.offset[0], n.offset[1], n.offset[2]);
@@ -98,16 +98,21 @@ class Search {
         const long other = grid_.node(c);
         if (!passes(other)) continue;
         const double there = next.cost + 0.5 * (price(next.node) + price(other)) * n.steps * grid_.step();
-        if (there >= cost[other]) continue;
-        cost[other] = there;
-        parent[other] = next.node;
-        waiting.push({there, other});
+        const auto [label, is_new] = labels_.try_emplace(other, Label{there, next.node});
+        if (!is_new && there >= label->second.cost) continue;
+        label->second = {there, next.node};
+        waiting.push({there + still(other), there, other});
       }
     }
     return {};
   }
 
  private:
+  struct Label {
+    double cost;
+    long parent;
+  };
+
   double near() const { return 8 * ball_ + options_.radius; }
   /// Around the handle as much as it has there is enough, then ever more.
   bool passes(long node) {
@@ -123,9 +128,14 @@ class Search {
     if (options_.exit) return (grid_.place(node) - *options_.exit).norm() <= 1.01 * grid_.step();
     return grid_.distance(node, near()) >= options_.arm;
   }
-  std::vector<Vec3> way_to(long node, const std::vector<long>& parent) const {
+  /// What the rest of the way costs at least: distances grow by no more than a metre in a metre, and a metre costs one.
+  double still(long node) {
+    if (options_.exit) return (grid_.place(node) - *options_.exit).norm();
+    return std::max(0.0, options_.arm - grid_.distance(node, near()));
+  }
+  std::vector<Vec3> way_to(long node) const {
     std::vector<Vec3> way;
-    for (long at = node; at >= 0; at = parent[at]) way.push_back(grid_.place(at));
+    for (long at = node; at >= 0; at = labels_.at(at).parent) way.push_back(grid_.place(at));
     way.push_back(from_);
     std::reverse(way.begin(), way.end());
     if (options_.exit) way.push_back(*options_.exit);
@@ -137,6 +147,7 @@ class Search {
   const HandlePathOptions& options_;
   double ball_;
   const RunContext& context_;
+  std::unordered_map<long, Label> labels_;
 };
 
 /// Straights over as many places as keep the smallest distance of the places that they pass by.

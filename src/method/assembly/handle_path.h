@@ -32,7 +32,7 @@ struct HandlePaths {
   std::string why;
 };
 
-/// Dijkstra over a grid on the distance field, a metre costing (1 + (4 radius / d)^2) at distance d, with least distances that rise
+/// A* over a grid on the distance field, a metre costing (1 + (4 radius / d)^2) at distance d, with least distances that rise
 /// from the radius on; smoothed without losing clearance. Throws UsageError for options that make no sense.
 HandlePaths handle_paths(const routing::FreeSpace& space, const Vec3& from, const HandlePathOptions& options, const RunContext& context = {});
 
