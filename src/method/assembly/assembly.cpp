@@ -1,21 +1,30 @@
 #include "method/assembly/assembly.h"
 
 #include <algorithm>
-#include <cmath>
+#include <chrono>
 
 #include "base/number_text.h"
 #include "base/units.h"
 #include "method/assembly/handle_path.h"
 #include "method/assembly/key_frames.h"
+#include "method/assembly/optimisation.h"
 #include "method/assembly/path_smoothing.h"
 #include "method/assembly/proof.h"
 #include "method/assembly/pull.h"
+#include "method/assembly/supplementation.h"
 
 namespace tendril::assembly {
 
 namespace {
 
 using routing::FreeSpace;
+
+enum { routed_configuration, constraint_relaxation, handle_path_planning, path_smoothing, grip_point_supplementation, optimisation };
+constexpr const char* step_names[] = {"routed_configuration", "constraint_relaxation",       "handle_path_planning",
+                                      "path_smoothing",       "grip_point_supplementation", "optimisation"};
+constexpr int most_supplementary = 4;      // grips, one after the other, before other traces are tried
+constexpr int optimisation_plays = 30;
+constexpr double smoothing_window = 0.1;   // of the common time
 
 /// Everything that the attempts share.
 struct Work {
@@ -51,21 +60,37 @@ std::vector<Grip> handles_of(const InstalledSystem& system, const Options& optio
   return handles;
 }
 
-/// Connections and handle; with `more` the other places that may be gripped too.
-std::vector<Grip> grips_of(const InstalledSystem& system, const Grip& handle, bool more) {
+/// Everything that was traced: connections, the handle first among the others.
+std::vector<Grip> grips_of(const InstalledSystem& system, const Grip& handle) {
   std::vector<Grip> grips = system.connections;
   grips.push_back(handle);
-  if (more)
-    for (const Grip& grip : system.extra)
-      if (grip.name != handle.name && grip.branch < 0) grips.push_back(grip);
+  for (const Grip& grip : system.extra)
+    if (grip.name != handle.name && grip.branch < 0) grips.push_back(grip);
   return grips;
 }
 
-/// How manipulations are made of traces, in order of promise.
-struct Style {
-  bool more_grips, smooth;
+/// Connections alone, and with the handle.
+std::vector<std::string> names_of(const InstalledSystem& system, const Grip& handle) {
+  std::vector<std::string> names;
+  for (const Grip& grip : system.connections) names.push_back(grip.name);
+  names.push_back(handle.name);
+  return names;
+}
+
+/// One step of the thesis: its time and what it counts, over all attempts.
+class Stage {
+ public:
+  Stage(MethodStep& step, const char* what) : step_(step) {
+    if (step_.counts.empty()) step_.counts.push_back({what, 0});
+    ++step_.counts.front().second;
+  }
+  ~Stage() { step_.seconds += std::chrono::duration<double>(Clock::now() - start_).count(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  MethodStep& step_;
+  const Clock::time_point start_ = Clock::now();
 };
-constexpr Style styles[] = {{false, true}, {false, false}, {true, false}};
 
 void keep(Work& work, const Manipulation& forward, Played& played, const HandlePath& path) {
   Result& r = work.result;
@@ -76,34 +101,102 @@ void keep(Work& work, const Manipulation& forward, Played& played, const HandleP
   r.play = key_frames(work.scene, work.system, forward, played, work.options.solve);
 }
 
-/// One handle along one path: pull, trace, play each style. True: proven.
+bool may_go_on(const Work& work) { return !work.context.stop() && work.result.attempts < work.options.attempts; }
+
+Played played_forward(Work& work, const Manipulation& forward, const SystemEquilibrium& start, const RunContext& context) {
+  return play(work.system, forward, start, work.options.deviation * work.system.radius, work.drive, work.options.solve, context);
+}
+
+/// The proven manipulation made better, as far as asked for.
+void keep_best(Work& work, const Manipulation& forward, Played played, const SystemEquilibrium& start, const HandlePath& path) {
+  if (!work.options.optimise) return keep(work, forward, played, path);
+  MethodStep& step = work.result.steps[optimisation];
+  const Prove prove = [&](const Manipulation& manipulation, const RunContext& context) { return played_forward(work, manipulation, start, context); };
+  const Stage stage(step, "runs");
+  Optimised best = optimised(work.system, forward, std::move(played), prove, optimisation_plays, work.options.optimise_seconds, work.context);
+  step.counts = {{"tried", best.tried}, {"accepted", best.accepted}};
+  keep(work, best.manipulation, best.played, path);
+}
+
+/// Played with ever more grips until it arrives. True: proven.
+bool supplemented(Work& work, const Manipulation& all, std::vector<std::string> names, const SystemEquilibrium& start, const HandlePath& path) {
+  Result& r = work.result;
+  for (int more = 0; more <= most_supplementary && may_go_on(work); ++more) {
+    const Manipulation forward = with_grips(all, names);
+    Played played;
+    std::string next;
+    {
+      const Stage stage(r.steps[grip_point_supplementation], "plays");
+      played = played_forward(work, forward, start, work.context);
+      ++r.attempts;
+      if (!played.proof.ok) next = supplementary_grip(work.system, all, forward, played);
+    }
+    if (played.proof.ok) {
+      keep_best(work, forward, std::move(played), start, path);
+      return true;
+    }
+    r.message = "installed by " + std::to_string(forward.grips.size()) + " grips: " + played.proof.message;
+    if (next.empty()) return false;
+    names.push_back(next);
+  }
+  return false;
+}
+
+/// One handle along one path: pulled, traced, smoothed, played. True: proven.
 bool attempt(Work& work, const Grip& handle, const HandlePath& path, bool gravity) {
   Result& r = work.result;
-  const Pulled pulled = pull(work.system, handle, path.points, gravity, work.drive, work.options.solve, work.context);
-  r.steps[1].counts[0].second += 1;
+  Pulled pulled;
+  {
+    const Stage stage(r.steps[constraint_relaxation], "pulls");
+    pulled = pull(work.system, handle, path.points, gravity, work.drive, work.options.solve, work.context);
+  }
   if (!pulled.ok) {
     if (r.message.empty()) r.message = "pulled by '" + handle.name + "': " + pulled.message;
     ++r.attempts;
     return false;
   }
-  for (const Style& style : styles) {
-    if (work.context.stop() || r.attempts >= work.options.attempts) return false;
-    Manipulation forward = traces(work.system, pulled, grips_of(work.system, handle, style.more_grips)).reversed();
-    if (style.smooth) forward = smoothed(work.system, forward, 0.1);
-    Played played = play(work.system, forward, pulled.pulled.passed.back().equilibrium, work.options.deviation * work.system.radius, work.drive,
-                         work.options.solve, work.context);
-    ++r.attempts;
-    if (played.proof.ok) {
-      keep(work, forward, played, path);
-      return true;
+  const Manipulation raw = traces(work.system, pulled, grips_of(work.system, handle)).reversed();
+  Manipulation smooth;
+  {
+    const Stage stage(r.steps[path_smoothing], "manipulations");
+    smooth = smoothed(work.system, raw, smoothing_window);
+  }
+  const SystemEquilibrium& start = pulled.pulled.passed.back().equilibrium;
+  return supplemented(work, smooth, names_of(work.system, handle), start, path) ||
+         supplemented(work, raw, names_of(work.system, handle), start, path);
+}
+
+/// Handles, paths and gravity in order of promise until one is proven.
+bool searched(Work& work) {
+  const InstalledSystem& system = work.system;
+  work.drive.radius = system.radius;
+  work.drive.most_strain = work.options.max_strain;
+  work.drive.min_bend_radius = work.options.min_bend_radius;
+  Result& r = work.result;
+  for (const Grip& handle : handles_of(system, work.options)) {
+    HandlePaths paths;
+    {
+      const Stage stage(r.steps[handle_path_planning], "searches");
+      paths = handle_paths(*work.space, system.pose(system.routed, handle).at,
+                           {system.radius, system.arm(handle) + 2 * system.radius, 0, work.options.exit}, work.context);
     }
-    r.message = "installed by '" + handle.name + "': " + played.proof.message;
+    if (paths.paths.empty() && r.message.empty()) r.message = "no way out for '" + handle.name + "': " + paths.why;
+    for (const HandlePath& path : paths.paths)
+      for (const bool gravity : {false, true}) {
+        if (!may_go_on(work)) return false;
+        if (attempt(work, handle, path, gravity)) return true;
+      }
+    if (!may_go_on(work)) return false;
   }
   return false;
 }
 
 void conclude(Work& work, bool proven) {
   Result& r = work.result;
+  if (!work.system.routed.ok() && !work.context.stop()) {
+    r.message = "the routed configuration has no equilibrium: " + work.system.routed.rods.front().message;
+    return;
+  }
   if (const auto stopped = work.context.stop()) {
     r.status = *stopped;
     r.message = std::string(*stopped == Status::timeout ? "out of time" : "cancelled") + " after " + std::to_string(r.attempts) + " attempts";
@@ -111,40 +204,28 @@ void conclude(Work& work, bool proven) {
   }
   r.ok = proven;
   r.status = proven ? Status::solved : Status::infeasible;
-  if (proven) r.message = "installed by " + std::to_string(r.hands) + " grips; played forward it ends " + number_text(r.proof.deviation / units::mm) + " mm from the routed configuration";
-  else r.message = "none found in " + std::to_string(r.attempts) + " attempts; the last: " + r.message;
+  if (proven)
+    r.message = "installed by " + std::to_string(r.hands) + " grips; played forward it ends " + number_text(r.proof.deviation / units::mm) + " mm from the routed configuration";
+  else
+    r.message = "none found in " + std::to_string(r.attempts) + " attempts; the last: " + r.message;
 }
 
 }  // namespace
 
 Result run(const Scene& scene, const Options& options, const RunContext& context) {
+  const auto start = RunContext::Clock::now();
   Result r;
-  StepClock clock(r.steps);
-  Work work{scene, options, context, installed_system(scene, options.rods, 2, options.solve, context), nullptr, {}, r};
-  if (!work.system.routed.ok()) {
-    r.message = "the routed configuration has no equilibrium: " + work.system.routed.rods.front().message;
-    r.seconds = clock.seconds();
-    return r;
+  for (const char* name : step_names) r.steps.push_back({name, 0, {}});
+  Work work{scene, options, context, {}, nullptr, {}, r};
+  {
+    const Stage stage(r.steps[routed_configuration], "solves");
+    work.system = installed_system(scene, options.rods, 2, options.solve, context, options.routed.get());
+    r.steps[routed_configuration].counts = {{"rods", long(work.system.rods.size())}, {"connections", long(work.system.connections.size())}};
+    if (work.system.routed.ok()) work.space = free_space(scene, work.system, options, context);
   }
-  work.drive.radius = work.system.radius;
-  work.drive.most_strain = options.max_strain;
-  work.drive.min_bend_radius = options.min_bend_radius;
-  work.space = free_space(scene, work.system, options, context);
-  clock.end("routed_configuration", {{"rods", long(work.system.rods.size())}, {"connections", long(work.system.connections.size())}});
-  r.steps.push_back({"attempts", 0, {{"pulls", 0}}});
   bool proven = false;
-  for (const Grip& handle : handles_of(work.system, options)) {
-    const HandlePaths paths = handle_paths(*work.space, work.system.pose(work.system.routed, handle).at,
-                                           {work.system.radius, work.system.arm(handle) + 2 * work.system.radius, 0, options.exit}, context);
-    if (paths.paths.empty() && r.message.empty()) r.message = "no way out for '" + handle.name + "': " + paths.why;
-    for (const HandlePath& path : paths.paths)
-      for (const bool gravity : {false, true}) {
-        if (proven || context.stop() || r.attempts >= options.attempts) break;
-        proven = attempt(work, handle, path, gravity);
-      }
-    if (proven || context.stop() || r.attempts >= options.attempts) break;
-  }
-  r.seconds = clock.seconds();
+  if (work.system.routed.ok()) proven = searched(work);
+  r.seconds = std::chrono::duration<double>(RunContext::Clock::now() - start).count();
   conclude(work, proven);
   return r;
 }

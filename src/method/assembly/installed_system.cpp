@@ -80,12 +80,11 @@ double InstalledSystem::arm(const Grip& grip) const {
 }
 
 InstalledSystem installed_system(const Scene& scene, const std::vector<std::string>& rods, int between, const SolveOptions& solve,
-                                 const RunContext& context) {
+                                 const RunContext& context, const SceneEquilibrium* from) {
   const Scene::System system = system_of(scene, rods, "assembly");
   InstalledSystem installed;
   installed.surroundings = scene.surroundings();
   installed.free = system.problem;
-  const auto routed = scene.solve(solve, context);
   for (std::size_t k = 0; k < system.rods.size(); ++k) {
     const int rod = static_cast<int>(k);
     RodProblem& problem = installed.free.rods[k];
@@ -123,8 +122,12 @@ InstalledSystem installed_system(const Scene& scene, const std::vector<std::stri
     branch.position = branch.orientation = false;
   }
   if (installed.connections.empty()) throw UsageError("assembly: nothing holds the rods in their routed configuration");
-  const std::optional<SystemEquilibrium> from = routed.part(routed, system.rods, system.branches);
-  installed.routed = tendril::solve(held_by(installed.free, installed.connections, installed.connected), solve, context, from ? &*from : nullptr);
+  SolveOptions near = solve;
+  near.follow = near.follow || from != nullptr;
+  const SceneEquilibrium routed = scene.solve(near, context, from);
+  const std::optional<SystemEquilibrium> start = routed.part(routed, system.rods, system.branches);
+  near.follow = true;
+  installed.routed = tendril::solve(held_by(installed.free, installed.connections, installed.connected), near, context, start ? &*start : nullptr);
   return installed;
 }
 

@@ -31,10 +31,11 @@ struct InstalledSystem {
 /// rods, unknown names and rods that do not hang together.
 Scene::System system_of(const Scene& scene, const std::vector<std::string>& rods, const std::string& who);
 
-/// The rods named (empty: all), with `between` further places for grips on each rod beside its middle. Throws UsageError where they
-/// do not hang together or nothing holds them.
+/// The rods named (empty: all), with `between` further places for grips on each rod beside its middle. `from`: an equilibrium of the
+/// scene that tells which of several it is; null: found anew. Throws UsageError where the rods do not hang together or nothing
+/// holds them.
 InstalledSystem installed_system(const Scene& scene, const std::vector<std::string>& rods, int between, const SolveOptions& solve,
-                                 const RunContext& context);
+                                 const RunContext& context, const SceneEquilibrium* from = nullptr);
 
 /// The system held by these grips in these poses; place() gives them others.
 SystemProblem held_by(const SystemProblem& free, const std::vector<Grip>& grips, const std::vector<Frame>& poses);

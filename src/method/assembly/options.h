@@ -33,6 +33,8 @@ struct Options {
   int attempts = 12;                   ///< handles, paths, gravity modes, grips: tried in order of promise
   bool optimise = true;                ///< the found manipulation: shorter, smoother, with more clearance, fewer grips
   double optimise_seconds = 5;         ///< s
+  /// Of the scene: which of its equilibria is the routed one, and where the search for it starts; null: found anew.
+  std::shared_ptr<const SceneEquilibrium> routed;
   SolveOptions solve;
 };
 
