@@ -109,6 +109,7 @@ std::optional<RodState> ContactSolver::led_around(const RodState& state) {
 ContactOutcome ContactSolver::run(RodState& state, const SystemEquilibrium* from, const RunContext& context) {
   used_ = 0;
   another_try_ = false;
+  if (options_.soft_contact > 0) return run_soft(state, from, context);
   ContactOutcome out = attempt(state, from, hard, context);
   another_try_ = true;
   for (const double other : other_hardness) {
@@ -122,6 +123,27 @@ ContactOutcome ContactSolver::run(RodState& state, const SystemEquilibrium* from
     }
     out = std::move(again);
     state = std::move(trial);
+  }
+  return out;
+}
+
+/// The soft law alone: what overlaps stays.
+ContactOutcome ContactSolver::run_soft(RodState& state, const SystemEquilibrium* from, const RunContext& context) {
+  ContactOutcome out;
+  const RodState start = state;
+  terms_.forget_forces();
+  terms_.set_softness(options_.soft_contact);
+  out.newton = stage(state, from ? Start::warm : Start::cold, options_.tolerance, hard_iterations, false, context);
+  if (out.newton.status == Status::stalled && !over(out)) {
+    ++out.fallbacks;
+    state = start;
+    out.newton = stage(state, Start::cold, options_.tolerance, descent_iterations, true, context);
+  }
+  out.newton.iterations = used_;
+  out.deepest = std::max(0.0, terms_.deepest_at(state).place.penetration);
+  if (const auto crossing = terms_.first_crossing(state)) {
+    out.message = "the rod crosses " + crossing_at(*crossing);
+    if (out.newton.status == Status::solved) out.newton.status = Status::stalled;
   }
   return out;
 }

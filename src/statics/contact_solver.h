@@ -63,6 +63,7 @@ class ContactSolver {
 
  private:
   ContactOutcome attempt(RodState& state, const SystemEquilibrium* from, double hardness, const RunContext& context);
+  ContactOutcome run_soft(RodState& state, const SystemEquilibrium* from, const RunContext& context);
   enum class Start { cold, warm };
   NewtonOutcome stage(RodState& state, Start start, double tolerance, int most_iterations, bool descend,
                       const RunContext& context);

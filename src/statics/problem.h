@@ -97,6 +97,9 @@ struct SolveOptions {
   bool stable_only = true;   ///< leave saddles; false: take the equilibrium nearest to the start
   bool error = false;        ///< also estimate the discretisation error
   ClearanceRule clearance = ClearanceRule::judge;
+  /// 0: surfaces are hard, as far as the method goes. Else obstacles give way by so many radii under the rods' own forces, and may
+  /// overlap: far fewer passes, for motions that are looked at again with hard surfaces.
+  double soft_contact = 0;
   bool follow = false;       ///< where a warm start does not lead on, run down the energy from it instead of starting anew
 };
 
