@@ -109,7 +109,7 @@ double clearance_of(const assembly::Proof& proof) { return proof.clearance_to.em
 std::string describe_assembly(const AssemblyHandle& h) {
   const assembly::Result& r = *h.result;
   Card card("assembly");
-  card.row("status", r.ok ? "solved" : name_of(r.status), r.message).row("time", r.seconds, "s", std::to_string(r.attempts) + " attempts");
+  card.row("status", r.ok ? "solved" : name_of(r.status), r.message).row("time", r.seconds, "s", std::to_string(r.attempts.size()) + " attempts");
   if (r.manipulation.grips.empty()) return card.text();
   card.row("hands", std::to_string(r.hands)).row("duration", r.duration, "s", std::to_string(r.proof.steps) + " steps played");
   card.row("deviation", r.proof.deviation, "m", "from the routed configuration");

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <utility>
 
 #include "base/number_text.h"
 #include "base/units.h"
@@ -101,7 +102,7 @@ void keep(Work& work, const Manipulation& forward, Played& played, const HandleP
   r.play = key_frames(work.scene, work.system, forward, played, work.options.solve);
 }
 
-bool may_go_on(const Work& work) { return !work.context.stop() && work.result.attempts < work.options.attempts; }
+bool may_go_on(const Work& work) { return !work.context.stop() && static_cast<int>(work.result.attempts.size()) < work.options.attempts; }
 
 Played played_forward(Work& work, const Manipulation& forward, const SystemEquilibrium& start, const RunContext& context) {
   return play(work.system, forward, start, work.options.deviation * work.system.radius, work.drive, work.options.solve, context);
@@ -118,8 +119,11 @@ void keep_best(Work& work, const Manipulation& forward, Played played, const Sys
   keep(work, best.manipulation, best.played, path);
 }
 
+double since(RunContext::Clock::time_point start) { return std::chrono::duration<double>(RunContext::Clock::now() - start).count(); }
+
 /// Played with ever more grips until it arrives. True: proven.
-bool supplemented(Work& work, const Manipulation& all, std::vector<std::string> names, const SystemEquilibrium& start, const HandlePath& path) {
+bool supplemented(Work& work, const Manipulation& all, Attempt attempt, const SystemEquilibrium& start, const HandlePath& path,
+                  std::vector<std::string> names) {
   Result& r = work.result;
   for (int more = 0; more <= most_supplementary && may_go_on(work); ++more) {
     const Manipulation forward = with_grips(all, names);
@@ -127,8 +131,12 @@ bool supplemented(Work& work, const Manipulation& all, std::vector<std::string> 
     std::string next;
     {
       const Stage stage(r.steps[grip_point_supplementation], "plays");
+      const auto begin = RunContext::Clock::now();
       played = played_forward(work, forward, start, work.context);
-      ++r.attempts;
+      attempt.grips = static_cast<int>(forward.grips.size());
+      attempt.outcome = played.proof.ok ? "proven" : played.proof.message;
+      attempt.seconds += since(begin);
+      r.attempts.push_back(std::exchange(attempt, {attempt.handle, attempt.gravity, attempt.smoothed, 0, {}, 0}));
       if (!played.proof.ok) next = supplementary_grip(work.system, all, forward, played);
     }
     if (played.proof.ok) {
@@ -143,27 +151,33 @@ bool supplemented(Work& work, const Manipulation& all, std::vector<std::string> 
 }
 
 /// One handle along one path: pulled, traced, smoothed, played. True: proven.
-bool attempt(Work& work, const Grip& handle, const HandlePath& path, bool gravity) {
+bool tried(Work& work, const Grip& handle, const HandlePath& path, bool gravity) {
   Result& r = work.result;
+  const auto begin = RunContext::Clock::now();
+  Attempt attempt{handle.name, gravity, true, 0, {}, 0};
   Pulled pulled;
   {
     const Stage stage(r.steps[constraint_relaxation], "pulls");
     pulled = pull(work.system, handle, path.points, gravity, work.drive, work.options.solve, work.context);
   }
+  attempt.seconds = since(begin);
   if (!pulled.ok) {
     if (r.message.empty()) r.message = "pulled by '" + handle.name + "': " + pulled.message;
-    ++r.attempts;
+    attempt.outcome = pulled.message;
+    r.attempts.push_back(attempt);
     return false;
   }
-  const Manipulation raw = traces(work.system, pulled, grips_of(work.system, handle)).reversed();
+  const Manipulation raw = kept_clear(work.system, traces(work.system, pulled, grips_of(work.system, handle)).reversed());
   Manipulation smooth;
   {
     const Stage stage(r.steps[path_smoothing], "manipulations");
     smooth = smoothed(work.system, raw, smoothing_window);
   }
   const SystemEquilibrium& start = pulled.pulled.passed.back().equilibrium;
-  return supplemented(work, smooth, names_of(work.system, handle), start, path) ||
-         supplemented(work, raw, names_of(work.system, handle), start, path);
+  if (supplemented(work, smooth, attempt, start, path, names_of(work.system, handle))) return true;
+  attempt.smoothed = false;
+  attempt.seconds = 0;
+  return supplemented(work, raw, attempt, start, path, names_of(work.system, handle));
 }
 
 /// Handles, paths and gravity in order of promise until one is proven.
@@ -172,6 +186,10 @@ bool searched(Work& work) {
   work.drive.radius = system.radius;
   work.drive.most_strain = work.options.max_strain;
   work.drive.min_bend_radius = work.options.min_bend_radius;
+  if (!system.connectors.empty())
+    work.drive.judge = [&system](const SystemEquilibrium& from, const SystemEquilibrium& to) {
+      return connector_hit(system.connectors, system.surroundings.get(), from, to);
+    };
   Result& r = work.result;
   for (const Grip& handle : handles_of(system, work.options)) {
     HandlePaths paths;
@@ -184,7 +202,7 @@ bool searched(Work& work) {
     for (const HandlePath& path : paths.paths)
       for (const bool gravity : {false, true}) {
         if (!may_go_on(work)) return false;
-        if (attempt(work, handle, path, gravity)) return true;
+        if (tried(work, handle, path, gravity)) return true;
       }
     if (!may_go_on(work)) return false;
   }
@@ -199,7 +217,7 @@ void conclude(Work& work, bool proven) {
   }
   if (const auto stopped = work.context.stop()) {
     r.status = *stopped;
-    r.message = std::string(*stopped == Status::timeout ? "out of time" : "cancelled") + " after " + std::to_string(r.attempts) + " attempts";
+    r.message = std::string(*stopped == Status::timeout ? "out of time" : "cancelled") + " after " + std::to_string(r.attempts.size()) + " attempts";
     return;
   }
   r.ok = proven;
@@ -207,7 +225,7 @@ void conclude(Work& work, bool proven) {
   if (proven)
     r.message = "installed by " + std::to_string(r.hands) + " grips; played forward it ends " + number_text(r.proof.deviation / units::mm) + " mm from the routed configuration";
   else
-    r.message = "none found in " + std::to_string(r.attempts) + " attempts; the last: " + r.message;
+    r.message = "none found in " + std::to_string(r.attempts.size()) + " attempts; the last: " + r.message;
 }
 
 }  // namespace
@@ -219,13 +237,13 @@ Result run(const Scene& scene, const Options& options, const RunContext& context
   Work work{scene, options, context, {}, nullptr, {}, r};
   {
     const Stage stage(r.steps[routed_configuration], "solves");
-    work.system = installed_system(scene, options.rods, 2, options.solve, context, options.routed.get());
+    work.system = installed_system(scene, options, 2, context);
     r.steps[routed_configuration].counts = {{"rods", long(work.system.rods.size())}, {"connections", long(work.system.connections.size())}};
     if (work.system.routed.ok()) work.space = free_space(scene, work.system, options, context);
   }
   bool proven = false;
   if (work.system.routed.ok()) proven = searched(work);
-  r.seconds = std::chrono::duration<double>(RunContext::Clock::now() - start).count();
+  r.seconds = since(start);
   conclude(work, proven);
   return r;
 }

@@ -8,7 +8,6 @@
 
 #include "base/number_text.h"
 #include "base/units.h"
-#include "method/free_space/bottleneck.h"
 #include "method/free_space/roadmap.h"
 
 namespace tendril::assembly {
@@ -43,6 +42,7 @@ class Grid {
     return c;
   }
   double step() const { return step_; }
+  const FreeSpace& space() const { return space_; }
 
   /// m from the nearest surface: exact up to `near`, beyond that the field's lower bound.
   double distance(long node, double near) {
@@ -150,6 +150,68 @@ class Search {
   std::unordered_map<long, Label> labels_;
 };
 
+/// The widest way out for a ball that may be thinner than the rods.
+struct Widest {
+  double radius = 0;   ///< m, of the ball; 0: no way of any width
+  Vec3 narrow = Vec3::Zero();
+  int obstacle = -1;   ///< nearest to the narrow place
+};
+
+/// Nodes by how wide the way to them is, the widest first (Dijkstra's method for the least distance of a way).
+Widest widest_way(Grid& grid, const Vec3& from, const HandlePathOptions& options, const RunContext& context) {
+  using Node = std::pair<double, long>;  // how wide the way to it is; which
+  const double near = 8 * options.radius;
+  const auto is_out = [&](long node) {
+    if (options.exit) return (grid.place(node) - *options.exit).norm() <= 1.01 * grid.step();
+    return grid.distance(node, near) >= options.arm;
+  };
+  std::unordered_map<long, double> widths;
+  std::priority_queue<Node> waiting;
+  const long first = grid.node(grid.nearest(from));
+  waiting.push({INFINITY, first});
+  widths[first] = INFINITY;
+  Widest widest;
+  long narrowest = first;
+  double least = INFINITY;
+  for (long popped = 1; !waiting.empty(); ++popped) {
+    const auto [width, node] = waiting.top();
+    waiting.pop();
+    if (width < widths[node]) continue;
+    if (popped % 1024 == 0 && context.stop()) return widest;
+    // What is wider than all before it lies behind the narrowest place so far.
+    if (width < least) {
+      least = width;
+      narrowest = node;
+    }
+    if (is_out(node)) {
+      widest.radius = least;
+      break;
+    }
+    for (const Roadmap::Neighbour& n : Roadmap::neighbours()) {
+      const Eigen::Vector3i c = grid.cell(node) + Eigen::Vector3i(n.offset[0], n.offset[1], n.offset[2]);
+      if (!grid.holds(c)) continue;
+      const long other = grid.node(c);
+      const double there = std::min(width, grid.distance(other, near));
+      double& known = widths[other];
+      // A straight that is longer than what is free at both its ends might lead through a thin wall.
+      if (there <= 0.5 * n.steps * grid.step() || there <= known) continue;
+      known = there;
+      waiting.push({there, other});
+    }
+  }
+  widest.narrow = grid.place(narrowest);
+  widest.obstacle = grid.space().gap(widest.narrow, options.arm).obstacle;
+  return widest;
+}
+
+std::string text_of(const Widest& widest, const Grid& grid) {
+  const auto mm = [](double metres) { return number_text(metres / units::mm); };
+  const std::string place = "(" + mm(widest.narrow.x()) + ", " + mm(widest.narrow.y()) + ", " + mm(widest.narrow.z()) + ") mm";
+  const std::string beside = widest.obstacle < 0 ? "" : " at '" + grid.space().name(widest.obstacle) + "'";
+  if (widest.radius <= 0) return "it is enclosed: every way ends, the widest" + beside + " near " + place + ", on a grid of " + mm(grid.step()) + " mm";
+  return "the widest way lets a ball of " + mm(widest.radius) + " mm radius through, narrowest" + beside + " near " + place;
+}
+
 /// Straights over as many places as keep the smallest distance of the places that they pass by.
 std::vector<Vec3> shortened(const FreeSpace& space, const std::vector<Vec3>& way, double most) {
   const double radius = space.demands().radius;
@@ -220,11 +282,10 @@ HandlePaths handle_paths(const FreeSpace& space, const Vec3& from, const HandleP
     if (!is_known(result.paths, path, grid.step())) result.paths.push_back(std::move(path));
   }
   if (result.paths.empty() && !context.stop()) {
-    const Vec3 out = options.exit ? *options.exit : space.region().corner(Eigen::AlignedBox3d::TopRightCeil);
-    const routing::Bottleneck narrow = routing::bottleneck_between(space, from, out, grid.step(), context);
-    result.widest = narrow.lets_through;
-    result.narrow = narrow.at;
-    result.why = routing::text_of(narrow, space, grid.step());
+    const Widest widest = widest_way(grid, from, options, context);
+    result.widest = widest.radius;
+    result.narrow = widest.narrow;
+    result.why = text_of(widest, grid);
   }
   return result;
 }

@@ -36,6 +36,75 @@ Scene::System system_of(const Scene& scene, const std::vector<std::string>& rods
   throw UsageError(who + ": rod '" + first + "' belongs to no system");
 }
 
+namespace {
+
+// Connectors may overlap surfaces by this much of the radius: what touches them rubs along.
+constexpr double connector_slack = 0.05;
+
+/// Stiffnesses like those of a solid of that size, so that it is next to rigid; the mass stays.
+Section thickened(Section section, double radius) {
+  const double growth = radius / section.radius(), area = growth * growth;
+  section.outer *= growth;
+  for (double* stiffness : {&section.EA, &section.GA1, &section.GA2}) *stiffness *= area;
+  for (double* stiffness : {&section.EI1, &section.EI2, &section.GJ}) *stiffness *= area * area;
+  return section;
+}
+
+/// Replaces what lies between two arc lengths.
+void replace_part(Rod& rod, double from, double to, const Section& section) {
+  std::vector<RodPart> parts;
+  double begin = 0;
+  for (const RodPart& part : rod.parts) {
+    if (std::min(part.upto, from) > begin) parts.push_back({std::min(part.upto, from), part.section});
+    if (begin <= from && from < part.upto) parts.push_back({to, section});
+    if (part.upto > to) parts.push_back(part);
+    begin = part.upto;
+  }
+  rod.parts = std::move(parts);
+}
+
+/// The rod with an end part as thick as asked for. It thickens along a cone, so that it slides through what a shoulder would catch on.
+void thicken_end(Rod& rod, bool at_start, double length, double radius) {
+  const Section thin = rod.section_at(at_start ? 0 : rod.length);
+  const double more = radius - thin.radius(), cone = 1.5 * more;
+  const int steps = std::clamp(static_cast<int>(std::ceil(more / (0.2 * thin.radius()))), 1, 8);
+  length = std::min(length, 0.3 * rod.length);
+  for (int i = 0; i < steps; ++i) {
+    // From the cone's tip on: outer pieces are replaced by what is thicker.
+    const double reach = std::min(0.45 * rod.length, length + cone * (1 - double(i) / steps));
+    const Section section = thickened(thin, thin.radius() + more * (i + 1) / steps);
+    if (at_start) replace_part(rod, 0, reach, section);
+    else replace_part(rod, rod.length - reach, rod.length, section);
+  }
+}
+
+/// Adds them to the system; `routed`: where its rods are.
+void add_connectors(InstalledSystem& installed, const std::vector<Connector>& connectors, const SystemEquilibrium& routed) {
+  for (const Connector& connector : connectors) {
+    if (connector.name.empty()) throw UsageError("assembly: a connector without a name");
+    const auto rod = std::find(installed.rods.begin(), installed.rods.end(), connector.rod);
+    if (rod == installed.rods.end())
+      throw UsageError("assembly: connector '" + connector.name + "': unknown " + unknown_name(connector.rod, "rods", installed.rods));
+    for (const ConnectorBody& other : installed.connectors)
+      if (other.name() == connector.name) throw UsageError("assembly: two connectors are named '" + connector.name + "'");
+    const int number = static_cast<int>(rod - installed.rods.begin());
+    ConnectorBody body(connector, number, connector_slack * installed.radius);
+    if (installed.surroundings) body.plugged_in(*installed.surroundings, body.pose(routed));
+    // As wide as its corners, but no wider than there is room where it is routed.
+    const Equilibrium& shape = routed.rods[number];
+    Rod& design = installed.free.rods[number].rod;
+    double wide = body.wide();
+    for (std::size_t i = 0; i < shape.s.size() && installed.surroundings; ++i)
+      if ((connector.at_start ? shape.s[i] : design.length - shape.s[i]) <= body.behind())
+        wide = std::min(wide, installed.surroundings->closest(shape.points[i], wide).distance);
+    const double thin = design.section_at(connector.at_start ? 0 : design.length).radius();
+    if (wide > 1.05 * thin && body.behind() > 0) thicken_end(design, connector.at_start, body.behind(), wide);
+    installed.connectors.push_back(std::move(body));
+  }
+}
+
+}  // namespace
+
 Frame InstalledSystem::pose(const SystemEquilibrium& state, const Grip& grip) const {
   if (grip.branch >= 0) return state.branches[grip.branch];
   const Equilibrium& rod = state.rods[grip.rod];
@@ -68,6 +137,7 @@ double InstalledSystem::arm(const Grip& grip) const {
     int next = -1;
     for (int i = 0; i < count; ++i)
       if (!done[i] && (next < 0 || way[i] < way[next])) next = i;
+    if (next < 0) break;
     done[next] = 1;
     for (int i = 0; i < count; ++i) {
       double step = INFINITY;
@@ -79,9 +149,8 @@ double InstalledSystem::arm(const Grip& grip) const {
   return *std::max_element(way.begin(), way.end());
 }
 
-InstalledSystem installed_system(const Scene& scene, const std::vector<std::string>& rods, int between, const SolveOptions& solve,
-                                 const RunContext& context, const SceneEquilibrium* from) {
-  const Scene::System system = system_of(scene, rods, "assembly");
+InstalledSystem installed_system(const Scene& scene, const Options& options, int between, const RunContext& context) {
+  const Scene::System system = system_of(scene, options.rods, "assembly");
   InstalledSystem installed;
   installed.surroundings = scene.surroundings();
   installed.free = system.problem;
@@ -112,6 +181,8 @@ InstalledSystem installed_system(const Scene& scene, const std::vector<std::stri
     BranchPoint& branch = installed.free.branches[b];
     const std::string name = scene.branches()[system.branches[b]]->name;
     installed.branches.push_back(name);
+    if (branch.position != branch.orientation)
+      throw UsageError("assembly: branch point '" + name + "' is held in part only; connections must hold place and orientation");
     const Grip grip{name, -1, static_cast<int>(b), 0, branch.position && branch.orientation};
     if (grip.connection) {
       installed.connections.push_back(grip);
@@ -122,10 +193,11 @@ InstalledSystem installed_system(const Scene& scene, const std::vector<std::stri
     branch.position = branch.orientation = false;
   }
   if (installed.connections.empty()) throw UsageError("assembly: nothing holds the rods in their routed configuration");
-  SolveOptions near = solve;
-  near.follow = near.follow || from != nullptr;
-  const SceneEquilibrium routed = scene.solve(near, context, from);
+  SolveOptions near = options.solve;
+  near.follow = near.follow || options.routed;
+  const SceneEquilibrium routed = scene.solve(near, context, options.routed.get());
   const std::optional<SystemEquilibrium> start = routed.part(routed, system.rods, system.branches);
+  if (start) add_connectors(installed, options.connectors, *start);
   near.follow = true;
   installed.routed = tendril::solve(held_by(installed.free, installed.connections, installed.connected), near, context, start ? &*start : nullptr);
   return installed;

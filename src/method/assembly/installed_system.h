@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "method/assembly/connector_body.h"
 #include "method/assembly/manipulation.h"
 #include "scene/scene.h"
 
@@ -19,6 +20,7 @@ struct InstalledSystem {
   std::vector<Grip> extra;                   ///< further places that may be gripped: handles and supplementary grips
   SystemEquilibrium routed;
   double radius = 0;                         ///< m, of the thickest rod
+  std::vector<ConnectorBody> connectors;     ///< their true shapes; in statics they are thicker, stiffer ends of their rods
   std::shared_ptr<const Surroundings> surroundings;  ///< null: none
 
   Vec3 gravity() const { return free.rods.front().gravity; }
@@ -31,11 +33,9 @@ struct InstalledSystem {
 /// rods, unknown names and rods that do not hang together.
 Scene::System system_of(const Scene& scene, const std::vector<std::string>& rods, const std::string& who);
 
-/// The rods named (empty: all), with `between` further places for grips on each rod beside its middle. `from`: an equilibrium of the
-/// scene that tells which of several it is; null: found anew. Throws UsageError where the rods do not hang together or nothing
-/// holds them.
-InstalledSystem installed_system(const Scene& scene, const std::vector<std::string>& rods, int between, const SolveOptions& solve,
-                                 const RunContext& context, const SceneEquilibrium* from = nullptr);
+/// The rods asked for (Options::rods, connectors, routed, solve), with `between` further places for grips on each rod beside its
+/// middle. Throws UsageError where the rods do not hang together or nothing holds them, and for connectors that make no sense.
+InstalledSystem installed_system(const Scene& scene, const Options& options, int between, const RunContext& context = {});
 
 /// The system held by these grips in these poses; place() gives them others.
 SystemProblem held_by(const SystemProblem& free, const std::vector<Grip>& grips, const std::vector<Frame>& poses);

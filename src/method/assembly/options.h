@@ -56,6 +56,16 @@ struct KeyFrame {
   std::shared_ptr<const SceneEquilibrium> equilibrium;
 };
 
+/// One try: a handle pulled along one way out and, where it came out, what was traced played forward.
+struct Attempt {
+  std::string handle;
+  bool gravity = false;      ///< it acted while the system was pulled out
+  bool smoothed = false;     ///< the traces were
+  int grips = 0;             ///< that moved it in; 0: it did not come out
+  std::string outcome;       ///< "proven", or what stopped it
+  double seconds = 0;
+};
+
 struct Result {
   bool ok = false;
   /// solved: installed and proven by playing it forward. infeasible: no attempt was proven; `message` says how far the best one
@@ -69,7 +79,7 @@ struct Result {
   Proof proof;
   std::vector<KeyFrame> play;          ///< of the proof
   std::vector<Vec3> handle_path;       ///< m, outwards
-  int attempts = 0;
+  std::vector<Attempt> attempts;
   int hands = 0;                       ///< grips at the same time, at most
 };
 

@@ -11,6 +11,8 @@ constexpr int samples = 400;
 constexpr double may_lose = 0.005;  // of the radius
 // A window may not grow faster than this along the path, or averages overtake each other.
 constexpr double steepest_window = 1.0;
+// Out of a corner a grip gets by several corrections.
+constexpr int most_corrections = 8;
 
 /// One grip at evenly spaced times.
 using Poses = std::vector<Frame>;
@@ -52,7 +54,31 @@ Poses smoothed_grip(const InstalledSystem& system, const Poses& raw, int widest)
   return smooth;
 }
 
+/// m: from surfaces a grip keeps its rod's radius, but near the routed place only what it has there.
+double wanted_distance(const InstalledSystem& system, const Grip& grip, const Vec3& routed, const Vec3& at) {
+  const double radius = grip.rod < 0 ? system.radius : system.free.rods[grip.rod].rod.section_at(grip.at).radius();
+  return std::min(radius, distance_at(system, routed, radius) + (at - routed).norm());
+}
+
 }  // namespace
+
+Manipulation kept_clear(const InstalledSystem& system, const Manipulation& raw) {
+  Manipulation clear = raw;
+  if (!system.surroundings) return clear;
+  for (std::size_t g = 0; g < clear.grips.size(); ++g) {
+    const Vec3 routed = raw.poses[g].back().at;
+    for (Frame& pose : clear.poses[g])
+      for (int again = 0; again < most_corrections; ++again) {
+        const double wanted = wanted_distance(system, clear.grips[g], routed, pose.at);
+        const ClosestPoint closest = system.surroundings->closest(pose.at, wanted);
+        if (closest.obstacle < 0 || closest.distance >= wanted - may_lose * system.radius) break;
+        const Vec3 away = closest.distance > 0 ? Vec3(pose.at - closest.point) : Vec3(closest.point - pose.at);
+        if (away.norm() < 1e-9 * wanted) break;
+        pose.at += (wanted - closest.distance) * away.normalized();
+      }
+  }
+  return clear;
+}
 
 Manipulation smoothed(const InstalledSystem& system, const Manipulation& raw, double window) {
   Manipulation even;

@@ -22,6 +22,7 @@ std::vector<Frame> poses_at(const Manipulation& manipulation, double t) {
 
 Drive hang(const InstalledSystem& system, const Manipulation& manipulation, const SystemEquilibrium& start, DriveOptions options,
            const SolveOptions& solve, const RunContext& context) {
+  options.stays = true;
   options.flow = true;  // how it hangs before it is installed is nobody's concern
   const SystemProblem held = held_by(system.free, manipulation.grips, poses_at(manipulation, 0));
   const ProblemPath path = [&](double t, SystemProblem& problem) { set_gravity(problem, t * system.gravity()); };
@@ -40,8 +41,9 @@ Drive move(const InstalledSystem& system, const Manipulation& manipulation, cons
 }
 
 /// Grips that are no connections become springs that get ever softer.
-Drive let_go(const InstalledSystem& system, const std::vector<Grip>& grips, const SystemEquilibrium& start, const DriveOptions& options,
+Drive let_go(const InstalledSystem& system, const std::vector<Grip>& grips, const SystemEquilibrium& start, DriveOptions options,
              const SolveOptions& solve, const RunContext& context) {
+  options.stays = true;
   const SystemProblem bare = held_by(system.free, system.connections, system.connected);
   const ProblemPath path = [&](double t, SystemProblem& problem) {
     problem = bare;

@@ -73,8 +73,9 @@ SolveOptions softly(SolveOptions solve) {
   return solve;
 }
 
-Drive release(const InstalledSystem& system, const Grip& handle, bool gravity, const DriveOptions& options, const SolveOptions& solve,
+Drive release(const InstalledSystem& system, const Grip& handle, bool gravity, DriveOptions options, const SolveOptions& solve,
               const RunContext& context) {
+  options.stays = true;
   const std::vector<Sprung> sprung = sprung_connections(system);
   const Frame held = system.pose(system.routed, handle);
   const SystemProblem bare = held_by(system.free, {handle}, {held});

@@ -16,8 +16,10 @@ constexpr int easy = 10, hard = 25;
 // A step that needs more is better halved, as long as it can be.
 constexpr int most_passes = 100;
 constexpr double growth = 1.5, shrinking = 0.6, taken_back = 0.4;
-// A vertex jumps where it moves farther than both, in radii and in what drives.
+// A vertex jumps where it moves farther than both, so many radii and so many times what drives.
 constexpr double jump_radii = 1.5, jump_drives = 8;
+// How much nearer to a surface a point may get on its straight way than where it comes from and where it goes to, in radii.
+constexpr double may_dive = 0.25;
 // Of the proximal flow: how far a vertex goes in one step, in radii; stiffness and limits.
 constexpr double flow_most = 0.7, flow_least = 0.35;
 constexpr int flow_steps = 400;
@@ -43,27 +45,26 @@ class Driver {
     drive_.least_bend_radius = INFINITY;
     drive_.passed.push_back({0, from, false});
     step_ = options_.first_step * options_.radius;
-    while (t_ < 1) {
-      if (const auto stopped = context_.stop()) {
-        end(Drive::End::stopped, name_of(*stopped));
-        return std::move(drive_);
-      }
-      if (static_cast<int>(drive_.passed.size()) > options_.most_steps) {
-        end(Drive::End::no_equilibrium, "more steps than allowed");
-        return std::move(drive_);
-      }
-      if (!advance()) return std::move(drive_);
-    }
+    while (t_ < 1)
+      if (!may_go_on() || !advance()) return std::move(drive_);
     drive_.end = Drive::End::arrived;
     return std::move(drive_);
   }
 
  private:
+  bool may_go_on() {
+    if (const auto stopped = context_.stop()) return end(Drive::End::stopped, name_of(*stopped));
+    if (static_cast<int>(drive_.passed.size()) > options_.most_steps) return end(Drive::End::no_equilibrium, "more steps than allowed");
+    return true;
+  }
+
   const SystemEquilibrium& here() const { return drive_.passed.back().equilibrium; }
 
-  void end(Drive::End why, const std::string& message) {
+  /// Always false: the drive goes no farther.
+  bool end(Drive::End why, const std::string& message) {
     drive_.end = why;
     drive_.message = message;
+    return false;
   }
 
   /// The time at which what drives has gone `way` farther.
@@ -84,37 +85,75 @@ class Driver {
     return found;
   }
 
-  /// The first surface that a vertex passed through on its way, or that lies between two of them; empty: none.
+  /// The first surface that a point of the centre line passed through or dived into on its way, or that lies between two of them;
+  /// empty: none. Points are half a radius apart: no wire slips between them.
   std::string crossing(const SystemEquilibrium& from, const SystemEquilibrium& to) const {
     for (std::size_t k = 0; k < to.rods.size(); ++k) {
       const ContactField* field = problem_.rods[k].surroundings;
       if (!field) continue;
-      const std::vector<Vec3> &old = from.rods[k].points, &now = to.rods[k].points;
+      const double spacing = 0.5 * options_.radius;
+      const auto old = from.rods[k].sampled(spacing), now = to.rods[k].sampled(spacing);
+      const bool alike = old.size() == now.size();
       for (std::size_t i = 0; i < now.size(); ++i) {
-        auto hit = field->ray(old[i], now[i]);
-        if (!hit && i + 1 < now.size()) hit = field->ray(now[i], now[i + 1]);
-        if (hit) return "passes through '" + field->name(hit->obstacle) + "' at " + number_text(to.rods[k].s[i]) + " m of rod " + std::to_string(k + 1);
+        const Vec3 a = alike ? old[i].frame.at : from.rods[k].frame_at(now[i].s).at, b = now[i].frame.at;
+        const Vec3 next = i + 1 < now.size() ? now[i + 1].frame.at : b;
+        const int met = met_on(*field, a, b, next, problem_.rods[k].rod.section_at(now[i].s).radius());
+        if (met >= 0) return "passes through '" + field->name(met) + "' at " + number_text(now[i].s) + " m of rod " + std::to_string(k + 1);
       }
     }
     return {};
   }
 
+  /// The obstacle that a point meets from a to b, or that stands between b and the next one; -1: none.
+  int met_on(const ContactField& field, const Vec3& a, const Vec3& b, const Vec3& next, double radius) const {
+    const double way = (b - a).norm();
+    if (field.closest(0.5 * (a + b), 0.5 * way + std::max((next - b).norm(), radius)).obstacle < 0) return -1;
+    if (const auto hit = field.ray(a, b)) return hit->obstacle;
+    if (const auto hit = field.ray(b, next)) return hit->obstacle;
+    // Rods may be fastened within an obstacle: what counts is how much deeper it gets on the way.
+    const double least = std::min({field.closest(a, radius).distance, field.closest(b, radius).distance, radius}) - may_dive * options_.radius;
+    if (way < 2 * may_dive * options_.radius) return -1;
+    for (const double share : {0.25, 0.5, 0.75}) {
+      const ClosestPoint there = field.closest(a + share * (b - a), radius);
+      if (there.obstacle >= 0 && there.distance < least) return there.obstacle;
+    }
+    return -1;
+  }
+
+  /// Where it presses most.
+  std::string jammed() const {
+    double deepest = 0;
+    int obstacle = -1;
+    for (std::size_t k = 0; k < here().rods.size(); ++k)
+      for (const ContactForce& contact : here().rods[k].contacts)
+        if (contact.force.norm() > deepest) {
+          deepest = contact.force.norm();
+          obstacle = contact.obstacle;
+        }
+    const ContactField* field = problem_.rods.front().surroundings;
+    return obstacle < 0 || !field ? std::string("is jammed") : "is jammed at '" + field->name(obstacle) + "'";
+  }
+  bool is_jammed() const { return drive_.iterations > options_.most_iterations; }
+
   /// One step, or the end.
   bool advance() {
     const double least = options_.least_step * options_.radius;
     for (;;) {
+      if (is_jammed()) return end(Drive::End::no_equilibrium, jammed());
       const double there = time_after(step_), way = moved_(t_, there);
       path_(there, problem_);
       solve_.max_iterations = step_ > least * (1 + 1e-9) ? std::min(all_passes_, most_passes) : all_passes_;
       SystemEquilibrium found = solved(problem_, here());
-      if (context_.stop()) return end(Drive::End::stopped, name_of(*context_.stop())), false;
+      if (context_.stop()) return end(Drive::End::stopped, name_of(*context_.stop()));
       const int passes = found.rods.front().iterations;
-      const bool jumps = found.ok() && farthest_move(here(), found) > std::max(jump_radii * options_.radius, jump_drives * way);
+      const double move = found.ok() ? farthest_move(here(), found) : 0;
+      const bool jumps = move > std::max(jump_radii * options_.radius, options_.stays ? 0 : jump_drives * way);
       const std::string crossed = found.ok() && !jumps ? crossing(here(), found) : std::string();
-      if (found.ok() && !jumps && crossed.empty()) {
+      const std::string judged = found.ok() && !jumps && crossed.empty() && options_.judge ? options_.judge(here(), found) : std::string();
+      if (found.ok() && !jumps && crossed.empty() && judged.empty()) {
         if (!take(there, std::move(found), false)) return false;
         t_ = there;
-        if (passes <= easy) step_ = std::min(growth * step_, options_.most_step * options_.radius);
+        if (passes <= easy && !(options_.stays && move > 0.5 * jump_radii * options_.radius)) step_ = std::min(growth * step_, options_.most_step * options_.radius);
         else if (passes > hard) step_ = std::max(shrinking * step_, least);
         return true;
       }
@@ -122,11 +161,12 @@ class Driver {
         step_ = std::max(least, taken_back * step_);
         continue;
       }
+      if (!judged.empty()) return end(Drive::End::collision, judged);
       if (options_.flow) return flow(there);
-      if (jumps) return end(Drive::End::snap, "snaps through"), false;
-      if (!crossed.empty()) return end(Drive::End::crossing, crossed), false;
+      if (jumps) return end(Drive::End::snap, "snaps through");
+      if (!crossed.empty()) return end(Drive::End::crossing, crossed);
       const Equilibrium& first = found.rods.front();
-      return end(Drive::End::no_equilibrium, std::string("no equilibrium: ") + name_of(first.status) + " " + first.message), false;
+      return end(Drive::End::no_equilibrium, std::string("no equilibrium: ") + name_of(first.status) + " " + first.message);
     }
   }
 
@@ -139,9 +179,9 @@ class Driver {
       drive_.worst_strain = std::max(drive_.worst_strain, strain);
       drive_.least_bend_radius = std::min(drive_.least_bend_radius, bend);
       if (options_.most_strain > 0 && strain > options_.most_strain)
-        return end(Drive::End::strain, "a strain of " + number_text(100 * strain) + " % in rod " + std::to_string(k + 1)), false;
+        return end(Drive::End::strain, "a strain of " + number_text(100 * strain) + " % in rod " + std::to_string(k + 1));
       if (bend < options_.min_bend_radius)
-        return end(Drive::End::bend_radius, "a bend radius of " + number_text(bend / units::mm) + " mm in rod " + std::to_string(k + 1)), false;
+        return end(Drive::End::bend_radius, "a bend radius of " + number_text(bend / units::mm) + " mm in rod " + std::to_string(k + 1));
     }
     return true;
   }
@@ -165,14 +205,17 @@ class Driver {
     ++drive_.snaps;
     double share = 10;
     for (int i = 0; i < flow_steps; ++i) {
-      if (context_.stop()) return end(Drive::End::stopped, name_of(*context_.stop())), false;
+      if (is_jammed()) return end(Drive::End::no_equilibrium, jammed());
+      if (context_.stop()) return end(Drive::End::stopped, name_of(*context_.stop()));
       SystemEquilibrium found = solved(drawn_back(problem_, here(), share), here());
       const double move = found.ok() ? farthest_move(here(), found) : INFINITY;
       if (!found.ok() || move > flow_most * options_.radius || !crossing(here(), found).empty()) {
         share *= 4;
-        if (share > 1e12) return end(Drive::End::no_equilibrium, "finds no way down from where it snaps through"), false;
+        if (share > 1e12) return end(Drive::End::no_equilibrium, "finds no way down from where it snaps through");
         continue;
       }
+      if (options_.judge)
+        if (const std::string judged = options_.judge(here(), found); !judged.empty()) return end(Drive::End::collision, judged);
       if (!take(t, std::move(found), true)) return false;
       if (move < flow_least * options_.radius) share /= 2;
       if (move > 0.1 * options_.radius && share > 1e-6) continue;
@@ -184,7 +227,7 @@ class Driver {
         return true;
       }
     }
-    return end(Drive::End::no_equilibrium, "does not come to rest after it snaps through"), false;
+    return end(Drive::End::no_equilibrium, "does not come to rest after it snaps through");
   }
 
   SystemProblem problem_;

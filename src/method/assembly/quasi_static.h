@@ -18,9 +18,13 @@ struct DriveOptions {
   double radius = 0;              ///< m, of the thickest rod
   double first_step = 1, most_step = 4, least_step = 0.05;  ///< of what drives, in radii
   bool flow = true;               ///< through snap-throughs; false: they end the drive
+  bool stays = false;             ///< what drives goes no way (springs fade, gravity comes): only radii tell what jumps
   double most_strain = 0;         ///< 0: any
   double min_bend_radius = 0;     ///< m; 0: any
   int most_steps = 5000;
+  long most_iterations = 20'000;  ///< Newton's, of all steps: what needs more is jammed
+  /// What speaks against going from one state to the next, in words; empty: nothing. Null: nobody is asked.
+  std::function<std::string(const SystemEquilibrium& from, const SystemEquilibrium& to)> judge;
 };
 
 /// One equilibrium on the way.
@@ -31,7 +35,7 @@ struct Passed {
 };
 
 struct Drive {
-  enum class End { arrived, no_equilibrium, snap, crossing, strain, bend_radius, stopped };
+  enum class End { arrived, no_equilibrium, snap, crossing, collision, strain, bend_radius, stopped };
   End end = End::no_equilibrium;
   std::string message;            ///< where along what, and why; empty: arrived
   std::vector<Passed> passed;     ///< the first is where it began

@@ -134,7 +134,12 @@ TEST_CASE("assembly: of several equilibria the given one is installed") {
   const SceneEquilibrium other = scene.solve(follow, {}, &down);
   REQUIRE(other.ok());
   REQUIRE(farthest(up.rods[0].equilibrium, other.rods[0].equilibrium) > 0.05);
-  const InstalledSystem first = installed_system(scene, {}, 2, {}, {}, &up), second = installed_system(scene, {}, 2, {}, {}, &other);
+  const auto of = [&](const SceneEquilibrium& routed) {
+    Options options;
+    options.routed = std::make_shared<const SceneEquilibrium>(routed);
+    return installed_system(scene, options, 2);
+  };
+  const InstalledSystem first = of(up), second = of(other);
   REQUIRE(first.routed.ok());
   REQUIRE(second.routed.ok());
   CHECK(farthest(first.routed.rods[0], up.rods[0].equilibrium) < 1e-4);
@@ -146,7 +151,7 @@ TEST_CASE("assembly: every clip is a connection with a name of its own") {
   PlacedRod& rod = scene.add(PlacedRod("hose", Rod::uniform(0.5, cable(), 20), at(0), std::nullopt));
   rod.hold(Hold{0.2, {Vec3(0, 0, 0.2), Quat::Identity()}});
   rod.hold(Hold{0.4, {Vec3(0, 0, 0.4), Quat::Identity()}});
-  const InstalledSystem system = installed_system(scene, {}, 2, {}, {});
+  const InstalledSystem system = installed_system(scene, {}, 2);
   REQUIRE(system.connections.size() == 3);
   CHECK(system.connections[0].name == "hose.start");
   CHECK(system.connections[1].name == "hose.0.2");
@@ -179,7 +184,7 @@ TEST_CASE("assembly: grips are taken by name, in order") {
 TEST_CASE("assembly: the grip that strayed farthest is held next, then what contact presses on") {
   Scene scene(Vec3::Zero());
   scene.add(PlacedRod("hose", Rod::uniform(0.6, cable(), 24), Frame::looking({0, 0, 0}, Vec3::UnitX()), std::nullopt));
-  const InstalledSystem system = installed_system(scene, {}, 2, {}, {});
+  const InstalledSystem system = installed_system(scene, {}, 2);
   Manipulation all;
   all.times = {0, 1};
   all.grips = system.connections;
