@@ -192,17 +192,19 @@ bool searched(Work& work) {
     };
   Result& r = work.result;
   for (const Grip& handle : handles_of(system, work.options)) {
-    HandlePaths paths;
-    {
+    std::optional<HandlePaths> paths;
+    const auto next = [&]() -> std::optional<HandlePath> {
       const Stage stage(r.steps[handle_path_planning], "searches");
-      paths = handle_paths(*work.space, system.pose(system.routed, handle).at,
-                           {system.radius, system.arm(handle) + 2 * system.radius, 0, work.options.exit}, work.context);
-    }
-    if (paths.paths.empty() && r.message.empty()) r.message = "no way out for '" + handle.name + "': " + paths.why;
-    for (const HandlePath& path : paths.paths)
+      if (!paths) paths.emplace(*work.space, system.pose(system.routed, handle).at,
+                                HandlePathOptions{system.radius, system.arm(handle) + 2 * system.radius, 0, work.options.exit}, work.context);
+      return paths->next();
+    };
+    std::optional<HandlePath> path = next();
+    if (!path && r.message.empty()) r.message = "no way out for '" + handle.name + "': " + paths->why();
+    for (; path; path = next())
       for (const bool gravity : {false, true}) {
         if (!may_go_on(work)) return false;
-        if (tried(work, handle, path, gravity)) return true;
+        if (tried(work, handle, *path, gravity)) return true;
       }
     if (!may_go_on(work)) return false;
   }

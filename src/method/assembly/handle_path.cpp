@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <queue>
-#include <unordered_map>
 
 #include "base/number_text.h"
 #include "base/units.h"
@@ -20,16 +19,41 @@ using routing::Roadmap;
 constexpr double most_nodes = 2e7;
 // Balls that are tried, in radii of the thickest rod, the largest first.
 constexpr std::array<double, 5> balls = {4, 3, 2, 1.5, 1};
+// Distances are exact up to so many radii.
+constexpr double exact_upto = 5;
 // What rests on a surface is a little nearer to it than its radius.
 constexpr double resting = 2e-3;
+// The estimate of what is left counts so much more: far fewer places are looked at, and no way is dearer by more.
+constexpr double haste = 1.5;
 
-/// A grid over the region with distances that are looked up when they are asked for.
-class Grid {
+/// A place of the grid: its distance from the nearest surface and what the present search knows of it.
+struct Node {
+  float distance = -1;   ///< m; negative: not looked up yet
+  int search = -1;       ///< which search the rest belongs to
+  double value = 0;      ///< cost up to here, or width
+  long parent = -1;
+};
+
+double step_for(const FreeSpace& space, const HandlePathOptions& options) {
+  const double wanted = options.grid > 0 ? options.grid : std::max(options.radius, 2e-3);
+  return std::max(wanted, std::cbrt(space.region().volume() / most_nodes));
+}
+
+}  // namespace
+
+/// A grid over the region of which only what searches reach takes memory; distances are looked up when they are asked for.
+class HandlePaths::Grid {
  public:
-  Grid(const FreeSpace& space, double step) : space_(space), step_(step), corner_(space.region().min()) {
-    for (int k = 0; k < 3; ++k) size_[k] = static_cast<int>(space.region().sizes()[k] / step) + 1;
+  Grid(const FreeSpace& space, const Vec3& from, const HandlePathOptions& options)
+      : space_(space), from_(from), options_(options), step_(step_for(space, options)), corner_(space.region().min()) {
+    for (int k = 0; k < 3; ++k) {
+      size_[k] = static_cast<int>(space.region().sizes()[k] / step_) + 1;
+      blocks_wide_[k] = (size_[k] + side - 1) / side;
+    }
+    blocks_.resize(static_cast<std::size_t>(blocks_wide_[0]) * blocks_wide_[1] * blocks_wide_[2]);
   }
-  long nodes() const { return static_cast<long>(size_[0]) * size_[1] * size_[2]; }
+  double step() const { return step_; }
+  const FreeSpace& space() const { return space_; }
   Vec3 place(long node) const { return corner_ + step_ * cell(node).cast<double>(); }
   Eigen::Vector3i cell(long node) const {
     return {static_cast<int>(node % size_[0]), static_cast<int>(node / size_[0] % size_[1]), static_cast<int>(node / size_[0] / size_[1])};
@@ -41,101 +65,174 @@ class Grid {
     for (int k = 0; k < 3; ++k) c[k] = std::clamp(c[k], 0, size_[k] - 1);
     return c;
   }
-  double step() const { return step_; }
-  const FreeSpace& space() const { return space_; }
+  /// Nodes beside the place where the handle is, that one first.
+  std::vector<long> around_start() const {
+    const Eigen::Vector3i middle = nearest(from_);
+    std::vector<long> nodes{node(middle)};
+    for (int i = 0; i < 27; ++i) {
+      const Eigen::Vector3i c = middle + Eigen::Vector3i(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
+      if (i != 13 && holds(c)) nodes.push_back(node(c));
+    }
+    return nodes;
+  }
 
-  /// m from the nearest surface: exact up to `near`, beyond that the field's lower bound.
-  double distance(long node, double near) {
-    const auto [entry, is_new] = distance_.try_emplace(node, 0.0f);
-    float& known = entry->second;
-    if (!is_new) return known;
+  /// m from the nearest surface; beyond `exact_upto` radii the field's lower bound.
+  double distance(long node) {
+    float& known = at(node).distance;
+    if (known >= 0) return known;
     const Vec3 p = place(node);
-    const double radius = space_.demands().radius, low = space_.bounds(p).low + radius;
+    const double near = exact_upto * options_.radius, radius = space_.demands().radius, low = space_.bounds(p).low + radius;
     known = static_cast<float>(low > near ? low : std::max(0.0, std::max(low, space_.gap(p, near).value + radius)));
     return known;
   }
+  /// The largest ball that may be here, m. Around the handle what it has there is enough, then ever more.
+  double width(long node) {
+    const double d = distance(node) + resting * options_.radius;
+    return d >= options_.radius + 0.5 * (place(node) - from_).norm() ? INFINITY : d;
+  }
+  bool is_out(long node) {
+    if (options_.exit) return (place(node) - *options_.exit).norm() <= 1.01 * step_;
+    return distance(node) >= options_.arm;
+  }
+  /// The node as a new search finds it.
+  Node& at(long node, int search, double value) {
+    Node& found = at(node);
+    if (found.search != search) {
+      found.search = search;
+      found.value = value;
+      found.parent = -1;
+    }
+    return found;
+  }
+  long parent(long node) { return at(node).parent; }
+  int next_search() { return searches_++; }
 
  private:
+  static constexpr int side = 16;
+  using Block = std::array<Node, side * side * side>;
+
+  Node& at(long node) {
+    const Eigen::Vector3i c = cell(node);
+    std::unique_ptr<Block>& block =
+        blocks_[c[0] / side + static_cast<std::size_t>(blocks_wide_[0]) * (c[1] / side + static_cast<std::size_t>(blocks_wide_[1]) * (c[2] / side))];
+    if (!block) block = std::make_unique<Block>();
+    return (*block)[c[0] % side + side * (c[1] % side + side * (c[2] % side))];
+  }
+
   const FreeSpace& space_;
+  const Vec3& from_;
+  const HandlePathOptions& options_;
   double step_;
   Vec3 corner_;
-  std::array<int, 3> size_;
-  std::unordered_map<long, float> distance_;  // few of the nodes are ever looked at
+  std::array<int, 3> size_, blocks_wide_;
+  std::vector<std::unique_ptr<Block>> blocks_;
+  int searches_ = 0;
 };
 
-struct Waiting {
-  double bound, cost;  ///< of the whole way at least; up to here
-  long node;
-  bool operator<(const Waiting& other) const { return bound > other.bound || (bound == other.bound && node > other.node); }
-};
-
-/// The A* search for a ball from the handle to where it may end.
-class Search {
+/// The A* search for a ball from the handle to where it may end, and the widest way.
+class HandlePaths::Search {
  public:
-  Search(Grid& grid, const Vec3& from, const HandlePathOptions& options, double ball, const RunContext& context)
-      : grid_(grid), from_(from), options_(options), ball_(ball), context_(context) {}
+  Search(Grid& grid, const Vec3& from, const HandlePathOptions& options, const RunContext& context)
+      : grid_(grid), from_(from), options_(options), context_(context), search_(grid.next_search()) {}
 
-  /// Outwards; empty: there is no way.
-  std::vector<Vec3> run() {
+  /// Nodes by how wide the way to them is, the widest first (Dijkstra's method for the least width of a way).
+  WidestWay widest() {
+    struct Waiting {
+      double width, distance;
+      long node;
+      bool operator<(const Waiting& other) const { return std::tie(width, distance, node) < std::tie(other.width, other.distance, other.node); }
+    };
     std::priority_queue<Waiting> waiting;
-    const Eigen::Vector3i middle = grid_.nearest(from_);
-    for (int i = 0; i < 27; ++i) {
-      const Eigen::Vector3i c = middle + Eigen::Vector3i(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
-      if (!grid_.holds(c) || !passes(grid_.node(c))) continue;
-      const double cost = price(grid_.node(c)) * (grid_.place(grid_.node(c)) - from_).norm();
-      labels_[grid_.node(c)] = {cost, -1};
-      waiting.push({cost + still(grid_.node(c)), cost, grid_.node(c)});
+    for (const long node : grid_.around_start()) {
+      const double width = grid_.width(node);
+      grid_.at(node, search_, 0).value = width;
+      waiting.push({width, grid_.distance(node), node});
     }
-    for (long popped = 0; !waiting.empty(); ++popped) {
+    WidestWay way;
+    double least = INFINITY;
+    long narrowest = waiting.top().node;
+    for (long popped = 1; !waiting.empty(); ++popped) {
       const Waiting next = waiting.top();
       waiting.pop();
-      if (next.cost > labels_[next.node].cost) continue;
-      if (is_out(next.node)) return way_to(next.node);
-      if (popped % 1024 == 0 && context_.stop()) return {};
-      for (const Roadmap::Neighbour& n : Roadmap::neighbours()) {
-        const Eigen::Vector3i c = grid_.cell(next.node) + Eigen::Vector3i(n.offset[0], n.offset[1], n.offset[2]);
-        if (!grid_.holds(c)) continue;
-        const long other = grid_.node(c);
-        if (!passes(other)) continue;
-        const double there = next.cost + 0.5 * (price(next.node) + price(other)) * n.steps * grid_.step();
-        const auto [label, is_new] = labels_.try_emplace(other, Label{there, next.node});
-        if (!is_new && there >= label->second.cost) continue;
-        label->second = {there, next.node};
-        waiting.push({there + still(other), there, other});
+      if (next.width < grid_.at(next.node, search_, 0).value) continue;
+      if (popped % 1024 == 0 && context_.stop()) break;
+      // What is wider than all before it lies behind the narrowest place so far.
+      if (next.width < least) {
+        least = next.width;
+        narrowest = next.node;
       }
+      if (grid_.is_out(next.node)) {
+        way.radius = least;
+        break;
+      }
+      each_neighbour(next.node, [&](long node, double steps) {
+        const double width = std::min(next.width, grid_.width(node));
+        Node& known = grid_.at(node, search_, 0);
+        // A straight that is longer than what is free at both its ends might lead through a thin wall.
+        if (width <= known.value || std::min(grid_.distance(next.node), grid_.distance(node)) <= 0.5 * steps * grid_.step()) return;
+        known.value = width;
+        waiting.push({width, grid_.distance(node), node});
+      });
+    }
+    way.narrow = grid_.place(narrowest);
+    way.obstacle = grid_.space().gap(way.narrow, options_.arm).obstacle;
+    return way;
+  }
+
+  /// Outwards; empty: there is no way.
+  std::vector<Vec3> cheapest(double ball) {
+    struct Waiting {
+      double bound, cost;  ///< of the whole way, about; up to here
+      long node;
+      bool operator<(const Waiting& other) const { return std::tie(bound, node) > std::tie(other.bound, other.node); }
+    };
+    std::priority_queue<Waiting> waiting;
+    for (const long node : grid_.around_start()) {
+      if (grid_.width(node) < ball) continue;
+      const double cost = price(node) * (grid_.place(node) - from_).norm();
+      grid_.at(node, search_, INFINITY).value = cost;
+      waiting.push({cost + still(node), cost, node});
+    }
+    for (long popped = 1; !waiting.empty(); ++popped) {
+      const Waiting next = waiting.top();
+      waiting.pop();
+      if (next.cost > grid_.at(next.node, search_, INFINITY).value) continue;
+      if (grid_.is_out(next.node)) return way_to(next.node);
+      if (popped % 1024 == 0 && context_.stop()) return {};
+      each_neighbour(next.node, [&](long node, double steps) {
+        if (grid_.width(node) < ball) return;
+        const double there = next.cost + 0.5 * (price(next.node) + price(node)) * steps * grid_.step();
+        Node& known = grid_.at(node, search_, INFINITY);
+        if (there >= known.value) return;
+        known.value = there;
+        known.parent = next.node;
+        waiting.push({there + still(node), there, node});
+      });
     }
     return {};
   }
 
  private:
-  struct Label {
-    double cost;
-    long parent;
-  };
-
-  double near() const { return 8 * ball_ + options_.radius; }
-  /// Around the handle as much as it has there is enough, then ever more.
-  bool passes(long node) {
-    const double from = (grid_.place(node) - from_).norm();
-    const double least = std::min(ball_, options_.radius + 0.5 * from);
-    return grid_.distance(node, near()) >= least - resting * options_.radius;
+  template <class Visit>
+  void each_neighbour(long node, const Visit& visit) {
+    const Eigen::Vector3i cell = grid_.cell(node);
+    for (const Roadmap::Neighbour& n : Roadmap::neighbours()) {
+      const Eigen::Vector3i c = cell + Eigen::Vector3i(n.offset[0], n.offset[1], n.offset[2]);
+      if (grid_.holds(c)) visit(grid_.node(c), n.steps);
+    }
   }
   double price(long node) {
-    const double share = 4 * options_.radius / std::max(grid_.distance(node, near()), 0.25 * options_.radius);
+    const double share = 4 * options_.radius / std::max(grid_.distance(node), 0.25 * options_.radius);
     return 1 + share * share;
   }
-  bool is_out(long node) {
-    if (options_.exit) return (grid_.place(node) - *options_.exit).norm() <= 1.01 * grid_.step();
-    return grid_.distance(node, near()) >= options_.arm;
-  }
-  /// What the rest of the way costs at least: distances grow by no more than a metre in a metre, and a metre costs one.
+  /// What the rest of the way costs at least, `haste` times: distances grow by no more than a metre in a metre.
   double still(long node) {
-    if (options_.exit) return (grid_.place(node) - *options_.exit).norm();
-    return std::max(0.0, options_.arm - grid_.distance(node, near()));
+    if (options_.exit) return haste * (grid_.place(node) - *options_.exit).norm();
+    return haste * std::max(0.0, options_.arm - grid_.distance(node));
   }
-  std::vector<Vec3> way_to(long node) const {
+  std::vector<Vec3> way_to(long node) {
     std::vector<Vec3> way;
-    for (long at = node; at >= 0; at = labels_.at(at).parent) way.push_back(grid_.place(at));
+    for (long at = node; at >= 0; at = grid_.parent(at)) way.push_back(grid_.place(at));
     way.push_back(from_);
     std::reverse(way.begin(), way.end());
     if (options_.exit) way.push_back(*options_.exit);
@@ -145,72 +242,11 @@ class Search {
   Grid& grid_;
   const Vec3& from_;
   const HandlePathOptions& options_;
-  double ball_;
   const RunContext& context_;
-  std::unordered_map<long, Label> labels_;
+  int search_;
 };
 
-/// The widest way out for a ball that may be thinner than the rods.
-struct Widest {
-  double radius = 0;   ///< m, of the ball; 0: no way of any width
-  Vec3 narrow = Vec3::Zero();
-  int obstacle = -1;   ///< nearest to the narrow place
-};
-
-/// Nodes by how wide the way to them is, the widest first (Dijkstra's method for the least distance of a way).
-Widest widest_way(Grid& grid, const Vec3& from, const HandlePathOptions& options, const RunContext& context) {
-  using Node = std::pair<double, long>;  // how wide the way to it is; which
-  const double near = 8 * options.radius;
-  const auto is_out = [&](long node) {
-    if (options.exit) return (grid.place(node) - *options.exit).norm() <= 1.01 * grid.step();
-    return grid.distance(node, near) >= options.arm;
-  };
-  std::unordered_map<long, double> widths;
-  std::priority_queue<Node> waiting;
-  const long first = grid.node(grid.nearest(from));
-  waiting.push({INFINITY, first});
-  widths[first] = INFINITY;
-  Widest widest;
-  long narrowest = first;
-  double least = INFINITY;
-  for (long popped = 1; !waiting.empty(); ++popped) {
-    const auto [width, node] = waiting.top();
-    waiting.pop();
-    if (width < widths[node]) continue;
-    if (popped % 1024 == 0 && context.stop()) return widest;
-    // What is wider than all before it lies behind the narrowest place so far.
-    if (width < least) {
-      least = width;
-      narrowest = node;
-    }
-    if (is_out(node)) {
-      widest.radius = least;
-      break;
-    }
-    for (const Roadmap::Neighbour& n : Roadmap::neighbours()) {
-      const Eigen::Vector3i c = grid.cell(node) + Eigen::Vector3i(n.offset[0], n.offset[1], n.offset[2]);
-      if (!grid.holds(c)) continue;
-      const long other = grid.node(c);
-      const double there = std::min(width, grid.distance(other, near));
-      double& known = widths[other];
-      // A straight that is longer than what is free at both its ends might lead through a thin wall.
-      if (there <= 0.5 * n.steps * grid.step() || there <= known) continue;
-      known = there;
-      waiting.push({there, other});
-    }
-  }
-  widest.narrow = grid.place(narrowest);
-  widest.obstacle = grid.space().gap(widest.narrow, options.arm).obstacle;
-  return widest;
-}
-
-std::string text_of(const Widest& widest, const Grid& grid) {
-  const auto mm = [](double metres) { return number_text(metres / units::mm); };
-  const std::string place = "(" + mm(widest.narrow.x()) + ", " + mm(widest.narrow.y()) + ", " + mm(widest.narrow.z()) + ") mm";
-  const std::string beside = widest.obstacle < 0 ? "" : " at '" + grid.space().name(widest.obstacle) + "'";
-  if (widest.radius <= 0) return "it is enclosed: every way ends, the widest" + beside + " near " + place + ", on a grid of " + mm(grid.step()) + " mm";
-  return "the widest way lets a ball of " + mm(widest.radius) + " mm radius through, narrowest" + beside + " near " + place;
-}
+namespace {
 
 /// Straights over as many places as keep the smallest distance of the places that they pass by.
 std::vector<Vec3> shortened(const FreeSpace& space, const std::vector<Vec3>& way, double most) {
@@ -255,39 +291,46 @@ bool is_known(const std::vector<HandlePath>& paths, const HandlePath& path, doub
   });
 }
 
-double step_for(const FreeSpace& space, const HandlePathOptions& options) {
-  const double wanted = options.grid > 0 ? options.grid : std::max(options.radius, 2e-3);
-  const double volume = space.region().volume();
-  return std::max(wanted, std::cbrt(volume / most_nodes));
-}
-
 }  // namespace
 
-HandlePaths handle_paths(const FreeSpace& space, const Vec3& from, const HandlePathOptions& options, const RunContext& context) {
+HandlePaths::HandlePaths(const FreeSpace& space, const Vec3& from, const HandlePathOptions& options, const RunContext& context)
+    : space_(space), from_(from), options_(options), context_(context) {
   if (!(std::isfinite(options.radius) && options.radius > 0)) throw UsageError("assembly: the radius of the handle's ball must be above 0");
   if (!(std::isfinite(options.arm) && options.arm > 0)) throw UsageError("assembly: the system's arm must be above 0");
   if (!all_finite(from)) throw UsageError("assembly: the handle's place must be finite");
-  HandlePaths result;
-  if (!space.has_obstacles()) {
-    const Vec3 out = options.exit ? *options.exit : Vec3(from + options.arm * Vec3::UnitZ());
-    result.paths.push_back({{from, out}, options.arm, (out - from).norm()});
-    return result;
+  widest_.radius = INFINITY;
+  if (!space.has_obstacles()) return;
+  grid_ = std::make_unique<Grid>(space_, from_, options_);
+  widest_ = Search(*grid_, from_, options_, context_).widest();
+}
+
+HandlePaths::~HandlePaths() = default;
+
+std::optional<HandlePath> HandlePaths::next() {
+  if (!grid_) {
+    if (tried_++ > 0) return std::nullopt;
+    const Vec3 out = options_.exit ? *options_.exit : Vec3(from_ + options_.arm * Vec3::UnitZ());
+    return HandlePath{{from_, out}, options_.arm, (out - from_).norm()};
   }
-  Grid grid(space, step_for(space, options));
-  for (const double ball : balls) {
-    if (static_cast<int>(result.paths.size()) >= options.most_paths || context.stop()) break;
-    const std::vector<Vec3> way = Search(grid, from, options, ball * options.radius, context).run();
+  while (tried_ < balls.size() && !context_.stop()) {
+    const double ball = balls[tried_++] * options_.radius;
+    if (ball > widest_.radius) continue;
+    const std::vector<Vec3> way = Search(*grid_, from_, options_, context_).cheapest(ball);
     if (way.empty()) continue;
-    HandlePath path = measured(space, shortened(space, way, ball * options.radius), ball * options.radius);
-    if (!is_known(result.paths, path, grid.step())) result.paths.push_back(std::move(path));
+    HandlePath path = measured(space_, shortened(space_, way, ball), ball);
+    if (is_known(found_, path, grid_->step())) continue;
+    found_.push_back(path);
+    return path;
   }
-  if (result.paths.empty() && !context.stop()) {
-    const Widest widest = widest_way(grid, from, options, context);
-    result.widest = widest.radius;
-    result.narrow = widest.narrow;
-    result.why = text_of(widest, grid);
-  }
-  return result;
+  return std::nullopt;
+}
+
+std::string HandlePaths::why() const {
+  const auto mm = [](double metres) { return number_text(metres / units::mm); };
+  const std::string place = "(" + mm(widest_.narrow.x()) + ", " + mm(widest_.narrow.y()) + ", " + mm(widest_.narrow.z()) + ") mm";
+  const std::string beside = widest_.obstacle < 0 ? "" : " at " + space_.name(widest_.obstacle);
+  if (widest_.radius <= 0) return "it is enclosed: every way ends, the widest" + beside + " near " + place + ", on a grid of " + mm(grid_->step()) + " mm";
+  return "the widest way lets a ball of " + mm(widest_.radius) + " mm radius through, narrowest" + beside + " near " + place;
 }
 
 }  // namespace tendril::assembly

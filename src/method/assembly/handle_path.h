@@ -1,6 +1,7 @@
 // A way out for a ball at the handle, through free space to where the whole system has room (thesis 3.4, handle path planning).
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,7 +16,6 @@ struct HandlePathOptions {
   double grid = 0;        ///< m; 0: chosen from the scene's size
   /// Where it must end, m; nothing: anywhere with room for the arm.
   std::optional<Vec3> exit;
-  int most_paths = 4;
 };
 
 struct HandlePath {
@@ -24,16 +24,39 @@ struct HandlePath {
   double length = 0;          ///< m
 };
 
-struct HandlePaths {
-  std::vector<HandlePath> paths;  ///< the most promising first
-  /// Where there is none: the widest ball that gets out at all, where it sticks and between what.
-  double widest = 0;
+/// The widest way out, for a ball that may be thinner than the rods.
+struct WidestWay {
+  double radius = 0;          ///< m, of the ball, once it has left the handle's own place; 0: no way of any width
   Vec3 narrow = Vec3::Zero();
-  std::string why;
+  int obstacle = -1;          ///< nearest to the narrow place
 };
 
-/// A* over a grid on the distance field, a metre costing (1 + (4 radius / d)^2) at distance d, with least distances that rise
-/// from the radius on; smoothed without losing clearance. Throws UsageError for options that make no sense.
-HandlePaths handle_paths(const routing::FreeSpace& space, const Vec3& from, const HandlePathOptions& options, const RunContext& context = {});
+/// Ways out, one after the other as they are asked for, the widest balls first. A* over a grid on the distance field, a metre costing
+/// (1 + (4 radius / d)^2) at distance d, with least distances that rise from the radius on; shortened without losing clearance.
+class HandlePaths {
+ public:
+  /// Throws UsageError for options that make no sense.
+  HandlePaths(const routing::FreeSpace& space, const Vec3& from, const HandlePathOptions& options, const RunContext& context = {});
+  ~HandlePaths();
+
+  std::optional<HandlePath> next();
+
+  const WidestWay& widest() const { return widest_; }
+  /// Why there is no way for the rod's radius, and where.
+  std::string why() const;
+
+ private:
+  class Grid;
+  class Search;
+
+  const routing::FreeSpace& space_;
+  Vec3 from_;
+  HandlePathOptions options_;
+  const RunContext& context_;
+  std::unique_ptr<Grid> grid_;  // null: no obstacles
+  WidestWay widest_;
+  std::size_t tried_ = 0;
+  std::vector<HandlePath> found_;
+};
 
 }  // namespace tendril::assembly
