@@ -26,21 +26,7 @@ Frame Manipulation::pose(int grip, double t) const {
   return {a.at + share * (b.at - a.at), a.rotation.slerp(share, b.rotation)};
 }
 
-double Manipulation::moved(double from, double to) const {
-  double farthest = 0;
-  for (std::size_t g = 0; g < grips.size(); ++g) {
-    // Along the path, corners included.
-    double way = 0;
-    Frame last = pose(static_cast<int>(g), from);
-    for (auto t = std::upper_bound(times.begin(), times.end(), from); t != times.end() && *t < to; ++t) {
-      const Frame& corner = poses[g][t - times.begin()];
-      way += travel(last, corner);
-      last = corner;
-    }
-    farthest = std::max(farthest, way + travel(last, pose(static_cast<int>(g), to)));
-  }
-  return farthest;
-}
+double Manipulation::moved(double from, double to) const { return Travelled(*this)(from, to); }
 
 Manipulation Manipulation::reversed() const {
   Manipulation back = *this;
@@ -48,6 +34,29 @@ Manipulation Manipulation::reversed() const {
   for (double& t : back.times) t = 1 - t;
   for (std::vector<Frame>& path : back.poses) std::reverse(path.begin(), path.end());
   return back;
+}
+
+Travelled::Travelled(const Manipulation& manipulation) : times_(manipulation.times) {
+  for (const std::vector<Frame>& path : manipulation.poses) {
+    ways_.emplace_back(1, 0.0);
+    for (std::size_t i = 1; i < path.size(); ++i) ways_.back().push_back(ways_.back().back() + travel(path[i - 1], path[i]));
+  }
+}
+
+// Between two times places and orientations change evenly.
+double Travelled::until(std::size_t grip, double t) const {
+  const std::vector<double>& way = ways_[grip];
+  const auto after = std::upper_bound(times_.begin(), times_.end(), t);
+  if (after == times_.begin()) return way.front();
+  if (after == times_.end()) return way.back();
+  const std::size_t i = after - times_.begin();
+  return way[i - 1] + (t - times_[i - 1]) / (times_[i] - times_[i - 1]) * (way[i] - way[i - 1]);
+}
+
+double Travelled::operator()(double from, double to) const {
+  double farthest = 0;
+  for (std::size_t g = 0; g < ways_.size(); ++g) farthest = std::max(farthest, until(g, to) - until(g, from));
+  return farthest;
 }
 
 }  // namespace tendril::assembly

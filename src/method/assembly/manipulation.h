@@ -32,4 +32,16 @@ struct Manipulation {
   Manipulation reversed() const;
 };
 
+/// Manipulation::moved() for many pairs of times.
+class Travelled {
+ public:
+  explicit Travelled(const Manipulation& manipulation);
+  double operator()(double from, double to) const;
+
+ private:
+  double until(std::size_t grip, double t) const;
+  std::vector<double> times_;
+  std::vector<std::vector<double>> ways_;  // by grip, up to each time
+};
+
 }  // namespace tendril::assembly

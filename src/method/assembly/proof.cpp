@@ -36,7 +36,7 @@ Drive move(const InstalledSystem& system, const Manipulation& manipulation, cons
            const SolveOptions& solve, const RunContext& context) {
   const SystemProblem held = held_by(system.free, manipulation.grips, poses_at(manipulation, 0));
   const ProblemPath path = [&](double t, SystemProblem& problem) { place(problem, manipulation.grips, poses_at(manipulation, t)); };
-  const auto moved = [&](double from, double to) { return manipulation.moved(from, to); };
+  const std::function<double(double, double)> moved = Travelled(manipulation);
   return drive(held, path, moved, start, options, solve, context);
 }
 
