@@ -44,6 +44,8 @@ Drive move(const InstalledSystem& system, const Manipulation& manipulation, cons
 Drive let_go(const InstalledSystem& system, const std::vector<Grip>& grips, const SystemEquilibrium& start, DriveOptions options,
              const SolveOptions& solve, const RunContext& context) {
   options.stays = true;
+  // Mostly nothing moves any more: all at once is tried first.
+  options.first_step = options.most_step = still_way;
   const SystemProblem bare = held_by(system.free, system.connections, system.connected);
   const ProblemPath path = [&](double t, SystemProblem& problem) {
     problem = bare;
