@@ -32,23 +32,22 @@ KeyFrame key_frame(const SceneEquilibrium& frame, double t, const SystemProblem&
 
 }  // namespace
 
-std::vector<KeyFrame> key_frames(const Scene& scene, const InstalledSystem& system, const Manipulation& manipulation, const Played& played,
-                                 const SolveOptions& solve, int most) {
+std::vector<KeyFrame> key_frames(const Scene& scene, const InstalledSystem& system, const std::vector<Grip>& grips, const std::vector<Passed>& passed,
+                                 const Vec3& gravity, const SolveOptions& solve, int most) {
   std::vector<KeyFrame> frames;
-  const std::vector<Passed>& moved = played.moved.passed;
-  if (moved.empty()) return frames;
+  if (passed.empty()) return frames;
   const SceneEquilibrium frame = frame_of(scene, system, solve);
-  SystemProblem held = held_by(system.free, manipulation.grips, std::vector<Frame>(manipulation.grips.size()));
-  const std::size_t last = moved.size() - 1, kept = std::min<std::size_t>(last, std::max(1, most - 1));
+  SystemProblem held = held_by(system.free, grips, std::vector<Frame>(grips.size()));
+  set_gravity(held, gravity);
+  const std::size_t last = passed.size() - 1, kept = std::min<std::size_t>(last, std::max(1, most - 1));
   for (std::size_t i = 0; i <= kept; ++i) {
-    const Passed& passed = moved[kept == 0 ? 0 : i * last / kept];
+    const Passed& state = passed[kept == 0 ? 0 : i * last / kept];
+    if (state.flowed) continue;
     std::vector<Frame> poses;
-    for (std::size_t g = 0; g < manipulation.grips.size(); ++g) poses.push_back(manipulation.pose(static_cast<int>(g), passed.t));
-    place(held, manipulation.grips, poses);
-    frames.push_back(key_frame(frame, passed.t, held, passed.equilibrium));
+    for (const Grip& grip : grips) poses.push_back(system.pose(state.equilibrium, grip));
+    place(held, grips, poses);
+    frames.push_back(key_frame(frame, state.t, held, state.equilibrium));
   }
-  if (!played.let_go.passed.empty())
-    frames.back() = key_frame(frame, 1, held_by(system.free, system.connections, system.connected), played.let_go.passed.back().equilibrium);
   return frames;
 }
 

@@ -77,7 +77,9 @@ struct Result {
   Manipulation manipulation;           ///< forward: from outside to the routed configuration
   double duration = 1;                 ///< s, of the common time
   Proof proof;
-  std::vector<KeyFrame> play;          ///< of the proof
+  /// Of the proof; where none was found, of the attempt that came furthest, as far as it came.
+  std::vector<KeyFrame> play;
+  std::optional<Vec3> stopped_at;      ///< m: where that one was stopped
   std::vector<Vec3> handle_path;       ///< m, outwards
   std::vector<Attempt> attempts;
   int hands = 0;                       ///< grips at the same time, at most

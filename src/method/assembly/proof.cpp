@@ -101,7 +101,7 @@ void measure(const InstalledSystem& system, const Drive& drive, double from, dou
         if (closest.obstacle < 0 || closest.distance - system.radius >= proof.clearance) continue;
         proof.clearance = closest.distance - system.radius;
         proof.clearance_at_time = t;
-        proof.clearance_to = system.surroundings->name(closest.obstacle);
+        proof.clearance_to = system.surroundings->obstacle(closest.obstacle).name;
       }
     }
   }
@@ -126,7 +126,7 @@ Played play(const InstalledSystem& system, const Manipulation& manipulation, con
   measure(system, played.moved, 0, 1, proof);
   proof.steps = static_cast<int>(played.moved.passed.size()) - 1;
   if (!played.moved.ok()) {
-    proof.message = "at " + number_text(100 * played.moved.passed.back().t) + " % of the way in: " + played.moved.message;
+    proof.message = "at " + number_text(std::round(1e3 * played.moved.passed.back().t) / 10) + " % of the way in: " + played.moved.message;
     return played;
   }
   played.let_go = let_go(system, manipulation.grips, played.moved.passed.back().equilibrium, strict, solve, context);
