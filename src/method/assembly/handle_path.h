@@ -38,6 +38,8 @@ class HandlePaths {
   /// Throws UsageError for options that make no sense.
   HandlePaths(const routing::FreeSpace& space, const Vec3& from, const HandlePathOptions& options, const RunContext& context = {});
   ~HandlePaths();
+  HandlePaths(const HandlePaths&) = delete;
+  HandlePaths& operator=(const HandlePaths&) = delete;
 
   std::optional<HandlePath> next();
 
@@ -52,7 +54,7 @@ class HandlePaths {
   const routing::FreeSpace& space_;
   Vec3 from_;
   HandlePathOptions options_;
-  const RunContext& context_;
+  RunContext context_;
   std::unique_ptr<Grid> grid_;  // null: no obstacles
   WidestWay widest_;
   std::size_t tried_ = 0;

@@ -20,9 +20,15 @@ std::vector<Frame> poses_at(const Manipulation& manipulation, double t) {
   return poses;
 }
 
+/// Mostly next to nothing moves where grips stay: one step is tried, and smaller ones only where that jumps.
+void all_at_once_first(DriveOptions& options) {
+  options.stays = true;
+  options.first_step = options.most_step = still_way;
+}
+
 Drive hang(const InstalledSystem& system, const Manipulation& manipulation, const SystemEquilibrium& start, DriveOptions options,
            const SolveOptions& solve, const RunContext& context) {
-  options.stays = true;
+  all_at_once_first(options);
   options.flow = true;  // how it hangs before it is installed is nobody's concern
   const SystemProblem held = held_by(system.free, manipulation.grips, poses_at(manipulation, 0));
   const ProblemPath path = [&](double t, SystemProblem& problem) { set_gravity(problem, t * system.gravity()); };
@@ -43,9 +49,7 @@ Drive move(const InstalledSystem& system, const Manipulation& manipulation, cons
 /// Grips that are no connections become springs that get ever softer.
 Drive let_go(const InstalledSystem& system, const std::vector<Grip>& grips, const SystemEquilibrium& start, DriveOptions options,
              const SolveOptions& solve, const RunContext& context) {
-  options.stays = true;
-  // Mostly nothing moves any more: all at once is tried first.
-  options.first_step = options.most_step = still_way;
+  all_at_once_first(options);
   const SystemProblem bare = held_by(system.free, system.connections, system.connected);
   const ProblemPath path = [&](double t, SystemProblem& problem) {
     problem = bare;
@@ -96,10 +100,11 @@ void measure(const InstalledSystem& system, const Drive& drive, double from, dou
         proof.bend_radius_of = system.rods[k];
       }
       if (!system.surroundings) continue;
-      for (const Vec3& point : rod.points) {
-        const ClosestPoint closest = system.surroundings->closest(point, proof.clearance + system.radius);
-        if (closest.obstacle < 0 || closest.distance - system.radius >= proof.clearance) continue;
-        proof.clearance = closest.distance - system.radius;
+      for (std::size_t i = 0; i < rod.points.size(); ++i) {
+        const double radius = system.free.rods[k].rod.section_at(rod.s[i]).radius();
+        const ClosestPoint closest = system.surroundings->closest(rod.points[i], proof.clearance + radius);
+        if (closest.obstacle < 0 || closest.distance - radius >= proof.clearance) continue;
+        proof.clearance = closest.distance - radius;
         proof.clearance_at_time = t;
         proof.clearance_to = system.surroundings->obstacle(closest.obstacle).name;
       }

@@ -22,17 +22,17 @@ std::shared_ptr<const routing::FreeSpace> space_of(const Scene& scene, const Vec
   return std::make_shared<const routing::FreeSpace>(scene, demands, std::vector<Vec3>{from}, reach, RunContext{});
 }
 
-/// A closed box of 0.6 m, inside at 0.3 m from its middle, whose top has a square window.
+/// A box of 0.6 m whose top has a square window; 0: closed.
 Scene box_with_window(double window) {
   Scene scene;
-  const double half = 0.3, wall = 0.02, out = half + wall;
+  const double half = 0.3, wall = 0.02, out = half + wall, strip = out - 0.5 * window;
   add_box(scene, "bottom", {2 * out, 2 * out, wall}, {0, 0, -half - 0.5 * wall});
   for (const double side : {-1.0, 1.0}) {
-    add_box(scene, "wall x", {wall, 2 * out, 2 * half}, {side * (half + 0.5 * wall), 0, 0});
-    add_box(scene, "wall y", {2 * out, wall, 2 * half}, {0, side * (half + 0.5 * wall), 0});
-    const double strip = out - 0.5 * window;
-    add_box(scene, "top x", {strip, 2 * out, wall}, {side * (0.5 * window + 0.5 * strip), 0, half + 0.5 * wall});
-    add_box(scene, "top y", {window, strip, wall}, {0, side * (0.5 * window + 0.5 * strip), half + 0.5 * wall});
+    const std::string which = side < 0 ? "low " : "high ";
+    add_box(scene, which + "wall x", {wall, 2 * out, 2 * half}, {side * (half + 0.5 * wall), 0, 0});
+    add_box(scene, which + "wall y", {2 * out, wall, 2 * half}, {0, side * (half + 0.5 * wall), 0});
+    add_box(scene, "top " + which + "x", {strip, 2 * out, wall}, {side * (0.5 * window + 0.5 * strip), 0, half + 0.5 * wall});
+    if (window > 0) add_box(scene, "top " + which + "y", {window, strip, wall}, {0, side * (0.5 * window + 0.5 * strip), half + 0.5 * wall});
   }
   return scene;
 }
