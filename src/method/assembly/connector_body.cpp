@@ -108,7 +108,7 @@ std::string connector_hit(const std::vector<ConnectorBody>& bodies, const Surrou
     const auto hit = body.sweep(*surroundings, body.pose(from), body.pose(to));
     if (!hit) continue;
     const auto mm = [](double metres) { return number_text(metres / units::mm); };
-    return "connector '" + body.name() + "' hits '" + surroundings->name(hit->obstacle) + "' at (" + mm(hit->at.x()) + ", " + mm(hit->at.y()) +
+    return "connector '" + body.name() + "' hits " + surroundings->name(hit->obstacle) + " at (" + mm(hit->at.x()) + ", " + mm(hit->at.y()) +
            ", " + mm(hit->at.z()) + ") mm";
   }
   return {};

@@ -21,6 +21,7 @@ struct InstalledSystem {
   SystemEquilibrium routed;
   double radius = 0;                         ///< m, of the thickest rod
   std::vector<ConnectorBody> connectors;     ///< their true shapes; in statics they are thicker, stiffer ends of their rods
+  std::vector<double> thickened;             ///< m, how much of its rod each connector makes thicker
   std::shared_ptr<const Surroundings> surroundings;  ///< null: none
 
   Vec3 gravity() const { return free.rods.front().gravity; }

@@ -4,10 +4,12 @@
 #include <cmath>
 
 #include "base/number_text.h"
+#include "method/assembly/connector_ends.h"
 #include "method/assembly/key_frames.h"
 #include "method/assembly/optimisation.h"
 #include "method/assembly/path_smoothing.h"
 #include "method/assembly/stage.h"
+#include "method/assembly/straight_way.h"
 #include "method/assembly/supplementation.h"
 
 namespace tendril::assembly {
@@ -76,10 +78,11 @@ ManipulationSearch::ManipulationSearch(const Scene& scene, const InstalledSystem
   drive_.radius = system.radius;
   drive_.most_strain = options.max_strain;
   drive_.min_bend_radius = options.min_bend_radius;
-  if (!system.connectors.empty())
-    drive_.judge = [this](const SystemEquilibrium& from, const SystemEquilibrium& to) {
-      return connector_hit(system_.connectors, system_.surroundings.get(), from, to);
-    };
+  if (system.connectors.empty()) return;
+  drive_.judge = [this](const SystemEquilibrium& from, const SystemEquilibrium& to) {
+    return connector_hit(system_.connectors, system_.surroundings.get(), from, to);
+  };
+  drive_.jam = [this](const SystemEquilibrium& state) { return wedged(system_, state); };
 }
 
 bool ManipulationSearch::may_go_on() const { return !context_.stop() && static_cast<int>(result_.attempts.size()) < options_.attempts; }
@@ -103,11 +106,21 @@ bool ManipulationSearch::run() {
 }
 
 bool ManipulationSearch::by_handle(const Grip& handle) {
+  const Frame from = system_.pose(system_.routed, handle);
+  const HandlePathOptions wanted{system_.radius, system_.arm(handle) + 2 * system_.radius, 0, options_.exit};
+  // Connectors leave holes along their rods.
+  std::vector<HandlePath> straight;
+  if (!system_.connectors.empty()) straight = straight_ways(*space_, from, wanted);
+  std::reverse(straight.begin(), straight.end());
   std::optional<HandlePaths> paths;
   const auto next = [&]() -> std::optional<HandlePath> {
+    if (!straight.empty()) {
+      const HandlePath path = std::move(straight.back());
+      straight.pop_back();
+      return path;
+    }
     const Stage stage(result_.steps[handle_path_planning], "searches");
-    const HandlePathOptions wanted{system_.radius, system_.arm(handle) + 2 * system_.radius, 0, options_.exit};
-    if (!paths) paths.emplace(*space_, system_.pose(system_.routed, handle).at, wanted, context_);
+    if (!paths) paths.emplace(*space_, from.at, wanted, context_);
     return paths->next();
   };
   std::optional<HandlePath> path = next();
@@ -119,6 +132,7 @@ bool ManipulationSearch::by_handle(const Grip& handle) {
     for (const bool gravity : {false, true}) {
       if (!may_go_on()) return false;
       if (along(handle, *path, gravity)) return true;
+      if (wedged_) break;  // gravity opens no hole
     }
   return false;
 }
@@ -132,6 +146,7 @@ bool ManipulationSearch::along(const Grip& handle, const HandlePath& path, bool 
     pulled = pull(system_, handle, path.points, gravity, drive_, options_.solve, context_);
     kind.seconds = stage.seconds();
   }
+  wedged_ = pulled.released.end == Drive::End::jammed || pulled.pulled.end == Drive::End::jammed;
   if (!pulled.ok) {
     kind.outcome = pulled.message;
     note(kind, handle, pulled, path);

@@ -40,6 +40,7 @@ class ManipulationSearch {
   Result& result_;
   std::shared_ptr<const routing::FreeSpace> space_;
   DriveOptions drive_;
+  bool wedged_ = false;   // a connector, in the last pull
   double furthest_ = -1;  // of all attempts: the part that failed, and how far in
 };
 

@@ -14,7 +14,7 @@ namespace {
 // Newton's passes from which on a step was easy, or hard.
 constexpr int easy = 10, hard = 25;
 // A step that needs more is better halved, as long as it can be.
-constexpr int most_passes = 100;
+constexpr int most_passes = 50;
 constexpr double growth = 1.5, shrinking = 0.6, taken_back = 0.4;
 // A vertex jumps where it moves farther than both, so many radii and so many times what drives.
 constexpr double jump_radii = 1.5, jump_drives = 8;
@@ -22,7 +22,8 @@ constexpr double jump_radii = 1.5, jump_drives = 8;
 constexpr double may_dive = 0.25;
 // Of the proximal flow: how far a vertex goes in one step, in radii; stiffness and limits.
 constexpr double flow_most = 0.7, flow_least = 0.35;
-constexpr int flow_steps = 400;
+constexpr double flow_growth = 1.3;
+constexpr int flow_steps = 400, flow_refused = 12;
 
 double farthest_move(const SystemEquilibrium& a, const SystemEquilibrium& b) {
   double farthest = 0;
@@ -98,7 +99,7 @@ class Driver {
         const Vec3 a = alike ? old[i].frame.at : from.rods[k].frame_at(now[i].s).at, b = now[i].frame.at;
         const Vec3 next = i + 1 < now.size() ? now[i + 1].frame.at : b;
         const int met = met_on(*field, a, b, next, problem_.rods[k].rod.section_at(now[i].s).radius());
-        if (met >= 0) return "passes through '" + field->name(met) + "' at " + number_text(now[i].s) + " m of rod " + std::to_string(k + 1);
+        if (met >= 0) return "passes through " + field->name(met) + " at " + number_text(now[i].s) + " m of rod " + std::to_string(k + 1);
       }
     }
     return {};
@@ -131,7 +132,7 @@ class Driver {
           obstacle = contact.obstacle;
         }
     const ContactField* field = problem_.rods.front().surroundings;
-    return obstacle < 0 || !field ? std::string("is jammed") : "is jammed at '" + field->name(obstacle) + "'";
+    return obstacle < 0 || !field ? std::string("is jammed") : "is jammed at " + field->name(obstacle);
   }
   bool is_jammed() const { return drive_.iterations > options_.most_iterations; }
 
@@ -183,6 +184,8 @@ class Driver {
       if (bend < options_.min_bend_radius)
         return end(Drive::End::bend_radius, "a bend radius of " + number_text(bend / units::mm) + " mm in rod " + std::to_string(k + 1));
     }
+    if (options_.jam)
+      if (const std::string jam = options_.jam(here()); !jam.empty()) return end(Drive::End::jammed, jam);
     return true;
   }
 
@@ -203,22 +206,29 @@ class Driver {
   bool flow(double t) {
     path_(t, problem_);
     ++drive_.snaps;
-    double share = 10;
+    solve_.max_iterations = std::min(all_passes_, most_passes);
+    double share = 10, let_go = INFINITY;  // springs now, and when what drives was last tried without
+    double moved_before = INFINITY;
+    int refused = 0;
     for (int i = 0; i < flow_steps; ++i) {
-      if (is_jammed()) return end(Drive::End::no_equilibrium, jammed());
+      if (is_jammed() || refused > flow_refused) return end(Drive::End::no_equilibrium, jammed());
       if (context_.stop()) return end(Drive::End::stopped, name_of(*context_.stop()));
       SystemEquilibrium found = solved(drawn_back(problem_, here(), share), here());
       const double move = found.ok() ? farthest_move(here(), found) : INFINITY;
       if (!found.ok() || move > flow_most * options_.radius || !crossing(here(), found).empty()) {
-        share *= 4;
+        share *= found.ok() ? 2 : 4;
+        ++refused;
         if (share > 1e12) return end(Drive::End::no_equilibrium, "finds no way down from where it snaps through");
         continue;
       }
       if (options_.judge)
         if (const std::string judged = options_.judge(here(), found); !judged.empty()) return end(Drive::End::collision, judged);
       if (!take(t, std::move(found), true)) return false;
-      if (move < flow_least * options_.radius) share /= 2;
-      if (move > 0.1 * options_.radius && share > 1e-6) continue;
+      // What moves ever faster is on its way: softer springs would let it jump.
+      if (move < flow_least * options_.radius && move < flow_growth * moved_before) share /= 2;
+      moved_before = move;
+      if ((move > 0.1 * options_.radius && share > 1e-6) || share > 0.25 * let_go) continue;
+      let_go = share;
       SystemEquilibrium free = solved(problem_, here());
       if (free.ok() && farthest_move(here(), free) <= jump_radii * options_.radius && crossing(here(), free).empty()) {
         if (!take(t, std::move(free), false)) return false;

@@ -25,6 +25,8 @@ struct DriveOptions {
   long most_iterations = 20'000;  ///< Newton's, of all steps: what needs more is jammed
   /// What speaks against going from one state to the next, in words; empty: nothing. Null: nobody is asked.
   std::function<std::string(const SystemEquilibrium& from, const SystemEquilibrium& to)> judge;
+  /// Why no step, however small, leads on from a state, in words; empty: it may. It ends the drive there. Null: nobody is asked.
+  std::function<std::string(const SystemEquilibrium& state)> jam;
 };
 
 /// One equilibrium on the way.
@@ -35,7 +37,7 @@ struct Passed {
 };
 
 struct Drive {
-  enum class End { arrived, no_equilibrium, snap, crossing, collision, strain, bend_radius, stopped };
+  enum class End { arrived, no_equilibrium, snap, crossing, collision, jammed, strain, bend_radius, stopped };
   End end = End::no_equilibrium;
   std::string message;            ///< where along what, and why; empty: arrived
   std::vector<Passed> passed;     ///< the first is where it began

@@ -209,6 +209,15 @@ inline Case ring_with_small_connectors(int seed) { return ring_with_connectors(s
 /// Impossible: neither connector passes the ring between them. Even their faces, not only corners, are wider than it.
 inline Case ring_with_large_connectors(int seed) { return ring_with_connectors(seed, 1.7); }
 
+/// A connector that does not pass the ring at one end only: the other end has to be led through it, by the side of the large one.
+inline Case ring_with_one_large_connector(int seed) {
+  Case c = ring_with_connectors(seed, 0.55);
+  assembly::Connector& large = c.options.connectors[seed % 2];
+  const double edge = std::sqrt(2.0) * 1.7 * 0.034;
+  large = connector(large.name, large.at_start, {edge, edge, 0.03});
+  return c;
+}
+
 /// Impossible: both ends lie behind rings that they do not pass.
 inline Case ends_behind_rings(int seed) {
   Chance u(seed);

@@ -84,7 +84,7 @@ TEST_CASE("assembly: a connector's sweep meets what lies in its way, to its slac
   assembly::ConnectorBody plugged(plug, 0, slack);
   plugged.plugged_in(wall, along(0.02, 0));
   CHECK_FALSE(plugged.sweep(wall, along(0.0, 0), along(0.02, 0)));
-  CHECK(plugged.sweep(wall, along(0.3, 0), along(-0.2, 0)));
+  CHECK(plugged.sweep(wall, along(0.3, 0.4), along(-0.2, 0.4)));
 }
 
 TEST_CASE("assembly: a proof repeated at half the steps says the same", "[assembly]") {
