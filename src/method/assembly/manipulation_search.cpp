@@ -20,6 +20,7 @@ using routing::FreeSpace;
 
 constexpr int most_supplementary = 4;      // grips, one after the other, before other traces are tried
 constexpr int optimisation_plays = 30;
+constexpr double same_side = 0.7;          // cosine of the angle between ways out, seen from where a connector got stuck
 constexpr double smoothing_window = 0.1;   // of the common time
 
 std::shared_ptr<const FreeSpace> free_space(const Scene& scene, const InstalledSystem& system, const Options& options, const RunContext& context) {
@@ -131,10 +132,18 @@ bool ManipulationSearch::by_handle(const Grip& handle) {
   for (; path; path = next())
     for (const bool gravity : {false, true}) {
       if (!may_go_on()) return false;
+      if (wedges(*path)) break;
       if (along(handle, *path, gravity)) return true;
-      if (wedged_) break;  // gravity opens no hole
     }
   return false;
+}
+
+/// Leads out by a side of a hole by which a connector was wedged in it before: neither another handle nor gravity opens the hole.
+bool ManipulationSearch::wedges(const HandlePath& path) const {
+  return std::any_of(wedged_.begin(), wedged_.end(), [&](const Wedged& before) {
+    const Vec3 then = before.out - before.at, now = path.points.back() - before.at;
+    return now.dot(then) > same_side * now.norm() * then.norm();
+  });
 }
 
 /// One handle along one path: pulled, traced, smoothed, played. True: proven.
@@ -146,7 +155,7 @@ bool ManipulationSearch::along(const Grip& handle, const HandlePath& path, bool 
     pulled = pull(system_, handle, path.points, gravity, drive_, options_.solve, context_);
     kind.seconds = stage.seconds();
   }
-  wedged_ = pulled.released.end == Drive::End::jammed || pulled.pulled.end == Drive::End::jammed;
+  if (pulled.pulled.end == Drive::End::jammed) wedged_.push_back({place_of(pulled.pulled.passed.back().equilibrium), path.points.back()});
   if (!pulled.ok) {
     kind.outcome = pulled.message;
     note(kind, handle, pulled, path);

@@ -21,7 +21,13 @@ class ManipulationSearch {
   bool run();
 
  private:
+  /// A connector that got stuck: where, and where the handle was to go.
+  struct Wedged {
+    Vec3 at, out;
+  };
+
   bool may_go_on() const;
+  bool wedges(const HandlePath& path) const;
   std::vector<Grip> handles() const;
   bool by_handle(const Grip& handle);
   bool along(const Grip& handle, const HandlePath& path, bool gravity);
@@ -40,7 +46,7 @@ class ManipulationSearch {
   Result& result_;
   std::shared_ptr<const routing::FreeSpace> space_;
   DriveOptions drive_;
-  bool wedged_ = false;   // a connector, in the last pull
+  std::vector<Wedged> wedged_;
   double furthest_ = -1;  // of all attempts: the part that failed, and how far in
 };
 
