@@ -13,6 +13,10 @@ namespace tendril::assembly {
 
 namespace {
 
+// Of equilibria that change when they are touched, in radii: how far they may be from each other, and what is no change.
+constexpr double touched_off = 0.5, touched_still = 0.01;
+constexpr int most_touches = 4;
+
 void add_place(SystemProblem& problem, int rod, double at) { problem.rods[rod].springs.push_back({at, Frame{}, 0, 0}); }
 
 }  // namespace
@@ -81,6 +85,38 @@ double InstalledSystem::arm(const Grip& grip) const {
   return *std::max_element(way.begin(), way.end());
 }
 
+namespace {
+
+double farthest_apart(const SystemEquilibrium& a, const SystemEquilibrium& b) {
+  double farthest = 0;
+  for (std::size_t k = 0; k < a.rods.size(); ++k)
+    for (std::size_t i = 0; i < a.rods[k].points.size(); ++i) farthest = std::max(farthest, (a.rods[k].points[i] - b.rods[k].points[i]).norm());
+  return farthest;
+}
+
+// Without friction some equilibria on edges have a neighbour a fraction of a radius away that they change to when they are touched:
+// every installation would end there. Touched and let go until it stays; where that leads farther away it is left as it was.
+void settle(InstalledSystem& installed, const SolveOptions& solve, const RunContext& context) {
+  const Grip& touched = installed.extra.front();
+  std::vector<Grip> grips = installed.connections;
+  grips.push_back(touched);
+  SystemEquilibrium state = installed.routed;
+  for (int again = 0; again < most_touches && state.ok() && !context.stop(); ++again) {
+    std::vector<Frame> poses = installed.connected;
+    poses.push_back(installed.pose(state, touched));
+    const SystemEquilibrium held = tendril::solve(held_by(installed.free, grips, poses), solve, context, &state);
+    if (!held.ok()) return;
+    SystemEquilibrium freed = tendril::solve(held_by(installed.free, installed.connections, installed.connected), solve, context, &held);
+    if (!freed.ok() || farthest_apart(freed, installed.routed) > touched_off * installed.radius) return;
+    const bool stays = farthest_apart(freed, state) < touched_still * installed.radius;
+    state = std::move(freed);
+    if (stays) break;
+  }
+  installed.routed = std::move(state);
+}
+
+}  // namespace
+
 InstalledSystem installed_system(const Scene& scene, const Options& options, int between, const RunContext& context) {
   const Scene::System system = system_of(scene, options.rods, "assembly");
   InstalledSystem installed;
@@ -132,6 +168,7 @@ InstalledSystem installed_system(const Scene& scene, const Options& options, int
   if (start) add_connectors(installed, options.connectors, *start);
   near.follow = true;
   installed.routed = tendril::solve(held_by(installed.free, installed.connections, installed.connected), near, context, start ? &*start : nullptr);
+  if (installed.routed.ok() && installed.surroundings) settle(installed, near, context);
   return installed;
 }
 

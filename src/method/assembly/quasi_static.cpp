@@ -143,7 +143,8 @@ class Driver {
       if (is_jammed()) return end(Drive::End::no_equilibrium, jammed());
       const double there = time_after(step_), way = moved_(t_, there);
       path_(there, problem_);
-      solve_.max_iterations = step_ > least * (1 + 1e-9) ? std::min(all_passes_, most_passes) : all_passes_;
+      // Where nothing drives a shorter step is no easier.
+      solve_.max_iterations = step_ > least * (1 + 1e-9) && !options_.stays ? std::min(all_passes_, most_passes) : all_passes_;
       SystemEquilibrium found = solved(problem_, here());
       if (context_.stop()) return end(Drive::End::stopped, name_of(*context_.stop()));
       const int passes = found.rods.front().iterations;
