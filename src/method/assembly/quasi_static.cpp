@@ -23,7 +23,7 @@ constexpr double may_dive = 0.25;
 // Of the proximal flow: how far a vertex goes in one step, in radii; stiffness and limits.
 constexpr double flow_most = 0.7, flow_least = 0.35;
 constexpr double flow_growth = 1.3;
-constexpr int flow_steps = 400, flow_refused = 12;
+constexpr int flow_steps = 400, flow_refused = 6;  // the latter in a row without getting anywhere
 
 double farthest_move(const SystemEquilibrium& a, const SystemEquilibrium& b) {
   double farthest = 0;
@@ -217,8 +217,8 @@ class Driver {
       SystemEquilibrium found = solved(drawn_back(problem_, here(), share), here());
       const double move = found.ok() ? farthest_move(here(), found) : INFINITY;
       if (!found.ok() || move > flow_most * options_.radius || !crossing(here(), found).empty()) {
-        share *= found.ok() ? 2 : 4;
-        ++refused;
+        share *= found.ok() && move < 4 * flow_most * options_.radius ? 2 : 4;
+        refused += !found.ok();
         if (share > 1e12) return end(Drive::End::no_equilibrium, "finds no way down from where it snaps through");
         continue;
       }
@@ -227,6 +227,7 @@ class Driver {
       if (!take(t, std::move(found), true)) return false;
       // What moves ever faster is on its way: softer springs would let it jump.
       if (move < flow_least * options_.radius && move < flow_growth * moved_before) share /= 2;
+      if (move > flow_least * options_.radius) refused = 0;
       moved_before = move;
       if ((move > 0.1 * options_.radius && share > 1e-6) || share > 0.25 * let_go) continue;
       let_go = share;
