@@ -38,6 +38,7 @@ template <> inline constexpr const char* class_name<AssemblyHandle> = "assembly"
 template <> inline constexpr const char* class_name<GripPathsHandle> = "grip_paths";
 template <> inline constexpr const char* class_name<GripPathHandle> = "grip_path";
 template <> inline constexpr const char* class_name<AssemblyWorstHandle> = "assembly_worst";
+template <> inline constexpr const char* class_name<assembly::Attempt> = "assembly_attempt";
 template <> inline constexpr const char* class_name<AssemblyProofHandle> = "assembly_proof";
 
 }  // namespace tendril::lua

@@ -76,6 +76,7 @@ Schema assembly_schema() {
              option<double>("min_bend_radius", "m", "All the way").at_least(0).preset(standard.min_bend_radius),
              option<double>("deviation", "", "How near the last state must be to the routed one, in radii of the thickest rod").above(0).at_most(10).preset(standard.deviation),
              option<int>("attempts", "", "Handles, paths, grips that are tried, at most").at_least(1).at_most(10000).preset(standard.attempts),
+             option<std::shared_ptr<SceneEquilibrium>>("routed", "", "An equilibrium of the scene: which one is the routed configuration; default: the one that s:solve finds"),
              option<bool>("optimise", "", "Make what was found shorter, smoother, with more clearance and fewer grips").preset(standard.optimise),
              option<double>("optimise_seconds", "s", "For that, at most").at_least(0).preset(standard.optimise_seconds),
          } +
@@ -97,6 +98,7 @@ assembly::Options assembly_options(const Options& o) {
   options.min_bend_radius = o.get<double>("min_bend_radius");
   options.deviation = o.get<double>("deviation");
   options.attempts = o.get<int>("attempts");
+  if (o.has("routed")) options.routed = o.get<std::shared_ptr<SceneEquilibrium>>("routed");
   options.optimise = o.get<bool>("optimise");
   options.optimise_seconds = o.get<double>("optimise_seconds");
   options.solve = solve_options(o);
@@ -106,18 +108,27 @@ assembly::Options assembly_options(const Options& o) {
 /// Far away where nothing was near.
 double clearance_of(const assembly::Proof& proof) { return proof.clearance_to.empty() ? INFINITY : proof.clearance; }
 
+/// Of a proven manipulation; 0: there is none.
+int most_hands(const assembly::Result& r) { return r.manipulation.grips.empty() ? 0 : r.manipulation.hands(0); }
+
 std::string describe_assembly(const AssemblyHandle& h) {
   const assembly::Result& r = *h.result;
   Card card("assembly");
   card.row("status", r.ok ? "solved" : name_of(r.status), r.message).row("time", r.seconds, "s", std::to_string(r.attempts.size()) + " attempts");
   if (r.manipulation.grips.empty()) return card.text();
-  card.row("hands", std::to_string(r.hands)).row("duration", r.duration, "s", std::to_string(r.proof.steps) + " steps played");
+  card.row("hands", std::to_string(most_hands(r)), "at the same time, at most").row("duration", r.duration, "s", std::to_string(r.proof.steps) + " steps played");
   card.row("deviation", r.proof.deviation, "m", "from the routed configuration");
   card.row("largest strain", plain_number(100 * r.proof.strain) + " %", "'" + r.proof.strain_of + "' at t = " + plain_number(r.proof.strain_at_time));
   card.row("min bend radius", r.proof.bend_radius, "m", "'" + r.proof.bend_radius_of + "' at t = " + plain_number(r.proof.bend_radius_at_time));
   if (r.proof.clearance_to.empty()) card.row("min clearance", "none near");
   else card.row("min clearance", r.proof.clearance, "m", "to '" + r.proof.clearance_to + "' at t = " + plain_number(r.proof.clearance_at_time));
   return card.text();
+}
+
+int hands_at(const AssemblyHandle& h, double t) {
+  if (h.result->manipulation.grips.empty()) throw UsageError("assembly:hands_at: no manipulation was proven: " + h.result->message);
+  if (!(t >= 0 && t <= 1)) throw UsageError("assembly:hands_at: got t = " + plain_number(t) + ", expected 0 to 1");
+  return h.result->manipulation.hands(t);
 }
 
 /// The state nearest in time.
@@ -192,6 +203,21 @@ void bind_paths(lua_State* L) {
       });
 }
 
+void bind_attempt(lua_State* L) {
+  using assembly::Attempt;
+  Class<Attempt>(L, "One try to install a system: a handle pulled out, and what was traced played forward")
+      .property("handle", "", "Rod and share of its length, or branch point, that it was pulled by", [](const Attempt& a) { return a.handle; })
+      .property("gravity", "", "It acted while the system was pulled out", [](const Attempt& a) { return a.gravity; })
+      .property("smoothed", "", "The traces were", [](const Attempt& a) { return a.smoothed; })
+      .property("grips", "", "That moved it in; 0: it did not come out", [](const Attempt& a) { return a.grips; })
+      .property("outcome", "", "\"proven\", or what stopped it", [](const Attempt& a) { return a.outcome; })
+      .property("seconds", "s", "Run time", [](const Attempt& a) { return a.seconds; })
+      .tostring([](const Attempt& a) {
+        return "'" + a.handle + "'" + (a.gravity ? ", with gravity" : "") + (a.smoothed ? "" : ", as traced") + ", " + std::to_string(a.grips) +
+               " grips: " + a.outcome + ", " + quantity(a.seconds, "s");
+      });
+}
+
 void bind_worst(lua_State* L) {
   Class<AssemblyWorstHandle>(L, "The worst of all states on the way in")
       .property("strain", "", "Of the outermost fibre", [](const AssemblyWorstHandle& w) { return w.result->proof.strain; })
@@ -217,6 +243,7 @@ void bind_worst(lua_State* L) {
 
 void bind_assembly(lua_State* L) {
   bind_paths(L);
+  bind_attempt(L);
   bind_worst(L);
   Class<AssemblyHandle>(L, "A manipulation that installs a system of rods, or why none was found")
       .property("ok", "", "Found, and proven by playing it forward", [](const AssemblyHandle& h) { return h.result->ok; })
@@ -224,8 +251,8 @@ void bind_assembly(lua_State* L) {
       .property("message", "", "How it ends, or what stopped the best attempt, and where", [](const AssemblyHandle& h) { return h.result->message; })
       .property("seconds", "s", "Run time", [](const AssemblyHandle& h) { return h.result->seconds; })
       .property("steps", "", "Name, seconds, counts of each", [](const AssemblyHandle& h) { return h.result->steps; })
-      .property("attempts", "", "That were made", [](const AssemblyHandle& h) { return h.result->attempts; })
-      .property("hands", "", "Grips at the same time, at most", [](const AssemblyHandle& h) { return h.result->hands; })
+      .property("attempts", "", "List of what was tried, in order", [](const AssemblyHandle& h) { return h.result->attempts; })
+      .property("hands", "", "Grips to be held at the same time, at most", [](const AssemblyHandle& h) { return most_hands(*h.result); })
       .property("duration", "s", "Of the common time: t = 1", [](const AssemblyHandle& h) { return h.result->duration; })
       .property("paths", "", "Where each grip is: paths[\"hose.start\"](t), t = 0 ... 1 from outside to the routed configuration", [](const AssemblyHandle& h) { return GripPathsHandle{h.result}; })
       .property("handle_path", "m", "Of the handle, outwards, as it was searched", [](const AssemblyHandle& h) { return h.result->handle_path; })
@@ -234,6 +261,9 @@ void bind_assembly(lua_State* L) {
       .method("frame", {.takes = {"t"}, .does = "The equilibrium that was played nearest to t = 0 ... 1; at 1 the connections alone hold it.",
                         .example = example + "print(a:frame(1):rod(\"hose\").min_bend_radius > 0.05)  --> true"},
               frame_at)
+      .method("hands_at", {.takes = {"t"}, .does = "Grips to be held at t = 0 ... 1: one that is a connection and at rest until the end is plugged in and needs no hand.",
+                           .example = example + "print(a:hands_at(0) >= a:hands_at(0.9))  --> true"},
+              hands_at)
       .method("save", {.takes = {"path"}, .does = "Writes the paths of all grips into a .csv or .json: s, mm, quaternions.", .example = example + "a:save(\"paths.csv\")\na:save(\"paths.json\")"},
               save_assembly)
       .method("chart", {.options = {option<std::string>("title", "", "Above it; default: \"Installation\"")},

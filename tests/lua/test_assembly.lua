@@ -55,7 +55,12 @@ check.case("a hose past a post can be installed, and the result says how", funct
   check.is_true(a.proof.steps > 3)
   check.is_true(a.proof.deviation <= 0.05 * 8*mm)
   check.equal(a.hands, #a.paths)
-  check.is_true(a.attempts >= 1)
+  check.is_true(#a.attempts >= 1)
+  local last = a.attempts[#a.attempts]
+  check.equal(last.outcome, "proven")
+  check.equal(last.grips, #a.paths)
+  check.is_true(last.seconds > 0)
+  check.contains(tostring(last), last.handle, "grips: proven")
   check.is_true(a.worst.strain > 0 and a.worst.strain <= 0.3)
   check.equal(a.worst.where.strain, "hose")
   check.is_true(a.worst.when.strain >= 0 and a.worst.when.strain <= 1)

@@ -32,6 +32,7 @@ ConnectorBody::ConnectorBody(const Connector& connector, int rod, double slack)
     reach_ = std::max(reach_, p.norm());
     wide_ = std::max(wide_, p.head<2>().norm());
   }
+  length_ = box.sizes().z();
   behind_ = std::max(0.0, at_start_ ? box.max().z() : -box.min().z());
   for (const auto& t : mesh.triangles) triangles_.push_back({mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]});
 }
@@ -46,6 +47,13 @@ void ConnectorBody::plugged_in(const Surroundings& surroundings, const Frame& ro
   plugged_.clear();
   // Each hit names one obstacle more.
   while (const std::optional<Hit> hit = near({surroundings, routed, 0.5 * slack_, false})) plugged_.push_back(hit->obstacle);
+}
+
+double ConnectorBody::socket_depth(const Surroundings& surroundings, const Frame& routed) const {
+  const Vec3 out = (at_start_ ? 1 : -1) * routed.d3();
+  for (double depth = 0; depth < length_; depth += slack_)
+    if (!near({surroundings, {routed.at + depth * out, routed.rotation}, 0.5 * slack_, true})) return depth;
+  return length_;
 }
 
 ClosestPoint ConnectorBody::closest(const Place& place, const Vec3& p, double limit) const {

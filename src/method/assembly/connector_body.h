@@ -27,9 +27,13 @@ class ConnectorBody {
   bool at_start() const { return at_start_; }
   double reach() const { return reach_; }  ///< m, from the section's centre to the farthest point
   double wide() const { return wide_; }    ///< m, from the rod's axis to the farthest point
+  bool is_plugged_in() const { return !plugged_.empty(); }
   double behind() const { return behind_; }  ///< m of rod that it covers
 
   Frame pose(const SystemEquilibrium& state) const;
+
+  /// How far it must be withdrawn straight along its rod to be clear of what it is plugged into, its own length at most; m.
+  double socket_depth(const Surroundings& surroundings, const Frame& routed) const;
 
   /// It may overlap what it overlaps here, where it is plugged in, as long as it is near this pose.
   void plugged_in(const Surroundings& surroundings, const Frame& routed);
@@ -54,7 +58,7 @@ class ConnectorBody {
   std::string name_;
   int rod_;
   bool at_start_;
-  double slack_, reach_ = 0, wide_ = 0, behind_ = 0;
+  double slack_, reach_ = 0, wide_ = 0, behind_ = 0, length_ = 0;
   std::vector<Triangle> triangles_;  ///< in the section's axes, m
   std::vector<int> plugged_;         ///< obstacles
   Vec3 routed_ = Vec3::Zero();

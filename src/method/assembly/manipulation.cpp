@@ -8,6 +8,8 @@ namespace tendril::assembly {
 namespace {
 
 constexpr double metres_per_radian = 0.05;
+// Less is no motion, m.
+constexpr double still = 1e-9;
 
 }  // namespace
 
@@ -57,6 +59,19 @@ double Travelled::operator()(double from, double to) const {
   double farthest = 0;
   for (std::size_t g = 0; g < ways_.size(); ++g) farthest = std::max(farthest, until(g, to) - until(g, from));
   return farthest;
+}
+
+double Manipulation::rests_from(int grip) const {
+  std::size_t first = times.size() - 1;
+  while (first > 0 && travel(poses[grip][first - 1], poses[grip].back()) <= still) --first;
+  return times[first];
+}
+
+int Manipulation::hands(double t) const {
+  int count = 0;
+  for (std::size_t g = 0; g < grips.size(); ++g)
+    if (!grips[g].connection || t < rests_from(static_cast<int>(g))) ++count;
+  return count;
 }
 
 }  // namespace tendril::assembly

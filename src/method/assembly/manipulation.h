@@ -30,6 +30,11 @@ struct Manipulation {
   /// The farthest that any grip travels between two times; m.
   double moved(double from, double to) const;
   Manipulation reversed() const;
+  /// The time from which a grip is at rest until the end; 1 where it moves to the last.
+  double rests_from(int grip) const;
+  /// Hands that it takes at a time: a connection that is at rest until the end is plugged in and needs none, all others do, the
+  /// last of them until t = 1.
+  int hands(double t) const;
 };
 
 /// Manipulation::moved() for many pairs of times.

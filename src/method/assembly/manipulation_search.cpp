@@ -161,16 +161,18 @@ bool ManipulationSearch::along(const Grip& handle, const HandlePath& path, bool 
     note(kind, handle, pulled, path);
     return false;
   }
+  HandlePath taken = path;
+  taken.points = pulled.path;
   Manipulation raw, smooth;
   {
     const Stage stage(result_.steps[path_smoothing], "manipulations");
     raw = kept_clear(system_, traces(system_, pulled, grips_of(system_, handle)).reversed());
     smooth = smoothed(system_, raw, smoothing_window);
   }
-  if (supplemented(smooth, kind, pulled, path)) return true;
+  if (supplemented(smooth, kind, pulled, taken)) return true;
   kind.smoothed = false;
   kind.seconds = 0;
-  return supplemented(raw, kind, pulled, path);
+  return supplemented(raw, kind, pulled, taken);
 }
 
 /// Played with ever more grips until it arrives. True: proven.
@@ -221,7 +223,7 @@ void ManipulationSearch::keep(const Manipulation& forward, const Played& play, c
   result_.proof = play.proof;
   result_.handle_path = path.points;
   result_.stopped_at.reset();
-  result_.hands = static_cast<int>(forward.grips.size());
+  result_.hands = forward.hands(0);
   result_.play = key_frames(scene_, system_, forward.grips, play.moved.passed, system_.gravity(), options_.solve);
   if (!play.let_go.passed.empty())
     result_.play.back() = key_frames(scene_, system_, system_.connections, {play.let_go.passed.back()}, system_.gravity(), options_.solve).front();

@@ -50,6 +50,8 @@ Manipulation with_grips(const Manipulation& all, const std::vector<std::string>&
 }
 
 std::string supplementary_grip(const InstalledSystem& system, const Manipulation& all, const Manipulation& played, const Played& result) {
+  // Connectors are gripped: where they go is prescribed, whatever else is.
+  if (result.moved.end == Drive::End::collision) return {};
   std::string best;
   double farthest = system.radius;
   for (std::size_t g = 0; g < all.grips.size(); ++g) {
