@@ -134,11 +134,12 @@ bool ManipulationSearch::by_handle(const Grip& handle) {
       if (!may_go_on()) return false;
       if (wedges(*path)) break;
       if (along(handle, *path, gravity)) return true;
+      if (jammed_ && !system_.connectors.empty()) break;  // gravity opens no hole
     }
   return false;
 }
 
-/// Leads out by a side of a hole by which a connector was wedged in it before: neither another handle nor gravity opens the hole.
+/// Leads out by a side of a hole by which a connector was wedged in it before.
 bool ManipulationSearch::wedges(const HandlePath& path) const {
   return std::any_of(wedged_.begin(), wedged_.end(), [&](const Wedged& before) {
     const Vec3 then = before.out - before.at, now = path.points.back() - before.at;
@@ -155,6 +156,7 @@ bool ManipulationSearch::along(const Grip& handle, const HandlePath& path, bool 
     pulled = pull(system_, handle, path.points, gravity, drive_, options_.solve, context_);
     kind.seconds = stage.seconds();
   }
+  jammed_ = pulled.released.ok() && (pulled.pulled.end == Drive::End::jammed || pulled.pulled.end == Drive::End::no_equilibrium);
   if (pulled.pulled.end == Drive::End::jammed) wedged_.push_back({place_of(pulled.pulled.passed.back().equilibrium), path.points.back()});
   if (!pulled.ok) {
     kind.outcome = pulled.message;

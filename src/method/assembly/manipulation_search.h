@@ -47,6 +47,7 @@ class ManipulationSearch {
   std::shared_ptr<const routing::FreeSpace> space_;
   DriveOptions drive_;
   std::vector<Wedged> wedged_;
+  bool jammed_ = false;  // the last pull
   double furthest_ = -1;  // of all attempts: the part that failed, and how far in
 };
 

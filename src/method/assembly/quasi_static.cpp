@@ -16,6 +16,10 @@ constexpr int easy = 10, hard = 25;
 // A step that needs more is better halved, as long as it can be.
 constexpr int most_passes = 50;
 constexpr double growth = 1.5, shrinking = 0.6, taken_back = 0.4;
+// A step that was taken back is not tried again at once: steps stay below, by what share, and rise again with each that is taken.
+constexpr double below = 0.8, rising = 1.15;
+// Passes in which nothing gets a radius farther: it is jammed.
+constexpr long idle_passes = 800;
 // A vertex jumps where it moves farther than both, so many radii and so many times what drives.
 constexpr double jump_radii = 1.5, jump_drives = 8;
 // How much nearer to a surface a point may get on its straight way than where it comes from and where it goes to, in radii.
@@ -134,7 +138,9 @@ class Driver {
     const ContactField* field = problem_.rods.front().surroundings;
     return obstacle < 0 || !field ? std::string("is jammed") : "is jammed at " + field->name(obstacle);
   }
-  bool is_jammed() const { return drive_.iterations > options_.most_iterations; }
+  bool is_jammed() const {
+    return drive_.iterations > options_.most_iterations || (options_.flow && drive_.iterations - passes_then_ > idle_passes);
+  }
 
   /// One step, or the end.
   bool advance() {
@@ -155,11 +161,13 @@ class Driver {
       if (found.ok() && !jumps && crossed.empty() && judged.empty()) {
         if (!take(there, std::move(found), false)) return false;
         t_ = there;
-        if (passes <= easy && !(options_.stays && move > 0.5 * jump_radii * options_.radius)) step_ = std::min(growth * step_, options_.most_step * options_.radius);
+        ceiling_ *= rising;
+        if (passes <= easy && !(options_.stays && move > 0.5 * jump_radii * options_.radius)) step_ = std::min({growth * step_, ceiling_, options_.most_step * options_.radius});
         else if (passes > hard) step_ = std::max(shrinking * step_, least);
         return true;
       }
       if (step_ > least * (1 + 1e-9)) {
+        ceiling_ = std::max(least, below * step_);
         step_ = std::max(least, taken_back * step_);
         continue;
       }
@@ -175,6 +183,10 @@ class Driver {
   /// Takes up a state and judges it.
   bool take(double t, SystemEquilibrium state, bool flowed) {
     drive_.passed.push_back({t, std::move(state), flowed});
+    if (farthest_move(drive_.passed[resting_since_].equilibrium, here()) > options_.radius) {
+      resting_since_ = drive_.passed.size() - 1;
+      passes_then_ = drive_.iterations;
+    }
     for (std::size_t k = 0; k < here().rods.size(); ++k) {
       const Equilibrium& rod = here().rods[k];
       const double strain = rod.largest_strain(), bend = rod.smallest_bend_radius();
@@ -236,6 +248,7 @@ class Driver {
         if (!take(t, std::move(free), false)) return false;
         t_ = t;
         step_ = options_.first_step * options_.radius;
+        ceiling_ = INFINITY;
         return true;
       }
     }
@@ -251,6 +264,10 @@ class Driver {
   const RunContext& context_;
   Drive drive_;
   double t_ = 0, step_ = 0;
+  double ceiling_ = INFINITY;  // m, of steps, after one was taken back
+  // Of what passed: the state and the passes when something last got a radius farther.
+  std::size_t resting_since_ = 0;
+  long passes_then_ = 0;
 };
 
 }  // namespace

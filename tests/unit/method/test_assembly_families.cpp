@@ -1,7 +1,9 @@
 // Whether assembly verification is right about scenes that can be installed and that cannot, and whether its proofs bear repeating.
 #include <catch2/catch.hpp>
 
-#include "method/assembly/connector_body.h"
+#include <algorithm>
+
+#include "method/assembly/connector_ends.h"
 #include "method/assembly/proof.h"
 #include "method/assembly/pull.h"
 #include "unit/method/assembly_scenes.h"
@@ -32,6 +34,47 @@ TEST_CASE("assembly: what can be installed is proven", "[assembly]") {
   check_installed("ring", ring, 2);
   check_installed("lipped channel", lipped_channel, 2);
   check_installed("ring, small connectors", ring_with_small_connectors, 2);
+  check_installed("ring, one large connector", ring_with_one_large_connector, 2);
+}
+
+TEST_CASE("assembly: what cannot be installed never is, and the answer names connector and ring", "[assembly]") {
+  const auto check = [](const char* name, const Case& c, int seed) {
+    const assembly::Result result = assembly::run(c.scene, c.options);
+    INFO(name << ", seed " << seed << ": " << result.message);
+    CHECK_FALSE(result.ok);
+    CHECK(result.status == Status::infeasible);
+    CHECK(result.manipulation.grips.empty());
+    REQUIRE_FALSE(result.attempts.empty());
+    const bool named = std::any_of(result.attempts.begin(), result.attempts.end(), [](const assembly::Attempt& attempt) {
+      return attempt.outcome.find("connector '") == 0 && attempt.outcome.find("' is wedged in obstacle 'ring") != std::string::npos;
+    });
+    CHECK(named);
+  };
+  for (int seed = 1; seed <= 6; ++seed) {
+    check("ring, large connectors", ring_with_large_connectors(seed), seed);
+    check("ends behind rings", ends_behind_rings(seed), seed);
+  }
+}
+
+TEST_CASE("assembly: a connector is wedged where it is pulled into a ring too small, not where it lies or passes", "[assembly]") {
+  for (const double share : {0.55, 1.7}) {
+    const Case c = ring_with_connectors(3, share);
+    const assembly::InstalledSystem system = assembly::installed_system(c.scene, c.options, 2);
+    CHECK(assembly::wedged(system, system.routed).empty());
+    assembly::DriveOptions drive;
+    drive.radius = system.radius;
+    drive.jam = [&](const SystemEquilibrium& state) { return assembly::wedged(system, state); };
+    const Frame from = system.pose(system.routed, system.extra[0]);
+    const double side = (from.at - c.scene.obstacles()[0].body.pose.at).dot(from.d3()) > 0 ? 1 : -1;
+    const assembly::Pulled pulled = assembly::pull(system, system.extra[0], {from.at, from.at + side * 0.5 * from.d3()}, false, drive, {});
+    INFO("share " << share << ": " << pulled.message);
+    CHECK(pulled.ok == (share < 1));
+    if (pulled.ok) continue;
+    CHECK(pulled.pulled.end == assembly::Drive::End::jammed);
+    CHECK_THAT(pulled.message, Catch::StartsWith("connector '") && Catch::Contains("is wedged in obstacle 'ring' at ("));
+    // All but the last state were free to go on.
+    for (std::size_t i = 0; i + 1 < pulled.pulled.passed.size(); ++i) CHECK(assembly::wedged(system, pulled.pulled.passed[i].equilibrium).empty());
+  }
 }
 
 TEST_CASE("assembly: the hose of the ring family lies in its ring", "[assembly]") {
@@ -151,4 +194,7 @@ TEST_CASE("assembly: connectors that make no sense are refused by name", "[assem
   CHECK_THAT(message(plug), Catch::Contains("half-space"));
   plug.body.shape = Solid(Box{{0.02, -1, 0.02}});
   CHECK_THAT(message(plug), !Catch::Contains("nothing thrown"));
+  plug = connector("plug", true, {0.02, 0.02, 0.02});
+  c.options.connectors = {plug, connector("plug", false, {0.02, 0.02, 0.02})};
+  CHECK_THROWS_WITH(assembly::run(c.scene, c.options), Catch::Contains("two connectors are named 'plug'"));
 }
