@@ -508,6 +508,16 @@ function grip_path_methods:at(t) end
 ---@operator len: integer
 local grip_paths_methods = {}
 
+---One try to install a system: a handle pulled out, and what was traced played forward
+---@class assembly_attempt
+---@field gravity boolean It acted while the system was pulled out
+---@field grips integer That moved it in; 0: it did not come out
+---@field handle string Rod and share of its length, or branch point, that it was pulled by
+---@field outcome string "proven", or what stopped it
+---@field seconds number Run time (s)
+---@field smoothed boolean The traces were
+local assembly_attempt_methods = {}
+
 ---The worst of all states on the way in
 ---@class assembly_worst
 ---@field bend_radius number The smallest (m)
@@ -527,10 +537,10 @@ local assembly_proof_methods = {}
 
 ---A manipulation that installs a system of rods, or why none was found
 ---@class assembly
----@field attempts integer That were made
+---@field attempts (assembly_attempt)[] List of what was tried, in order
 ---@field duration number Of the common time: t = 1 (s)
 ---@field handle_path (vec)[] Of the handle, outwards, as it was searched (m)
----@field hands integer Grips at the same time, at most
+---@field hands integer Grips to be held at the same time, at most
 ---@field message string How it ends, or what stopped the best attempt, and where
 ---@field ok boolean Found, and proven by playing it forward
 ---@field paths grip_paths Where each grip is: paths["hose.start"](t), t = 0 ... 1 from outside to the routed configuration
@@ -544,7 +554,7 @@ local assembly_methods = {}
 ---@class (exact) tendril.assembly.chart.options
 ---@field title? string Above it; default: "Installation"
 
----Strain, bend radius and clearance over time, one below the other.
+---Strain, bend radius, clearance and hands over time, one below the other.
 ---@param options? tendril.assembly.chart.options
 ---@return sheet
 function assembly_methods:chart(options) end
@@ -553,6 +563,11 @@ function assembly_methods:chart(options) end
 ---@param t number
 ---@return equilibrium
 function assembly_methods:frame(t) end
+
+---Grips to be held at t = 0 ... 1: one that is a connection and at rest until the end is plugged in and needs no hand.
+---@param t number
+---@return integer
+function assembly_methods:hands_at(t) end
 
 ---Writes the paths of all grips into a .csv or .json: s, mm, quaternions.
 ---@param path string
@@ -1394,6 +1409,7 @@ method = {}
 ---@field min_bend_radius? number All the way (m; >= 0; default 0)
 ---@field deviation? number How near the last state must be to the routed one, in radii of the thickest rod (> 0 and <= 10; default 0.05)
 ---@field attempts? integer Handles, paths, grips that are tried, at most (1 ... 10000; default 12)
+---@field routed? equilibrium An equilibrium of the scene: which one is the routed configuration; default: the one that s:solve finds
 ---@field optimise? boolean Make what was found shorter, smoother, with more clearance and fewer grips (default true)
 ---@field optimise_seconds? number For that, at most (s; >= 0; default 5)
 ---@field element? "se3"|"staggered" Rod element: fourth order, or the second-order reference element (default "se3")

@@ -46,6 +46,31 @@ void add_measure(const assembly::Result& result, const std::string& name, double
   sheet.charts.push_back(std::move(chart));
 }
 
+/// Hands against time, in steps.
+void add_hands(const assembly::Result& result, ChartSheet& sheet) {
+  if (result.manipulation.grips.empty()) return;
+  Chart chart;
+  chart.x_label = "time [s]";
+  chart.y_label = "hands";
+  chart.markers = false;
+  ChartSeries series;
+  double before = 0;
+  int held = result.manipulation.hands(0);
+  for (const double t : result.manipulation.times) {
+    const int now = result.manipulation.hands(t);
+    if (now != held) {
+      series.x.push_back(before * result.duration);
+      series.y.push_back(held);
+    }
+    series.x.push_back(t * result.duration);
+    series.y.push_back(now);
+    held = now;
+    before = t;
+  }
+  chart.series.push_back(std::move(series));
+  sheet.charts.push_back(std::move(chart));
+}
+
 }  // namespace
 
 ChartSheet assembly_chart(const assembly::Result& result, const std::string& title) {
@@ -56,6 +81,7 @@ ChartSheet assembly_chart(const assembly::Result& result, const std::string& tit
   add_measure(result, "largest strain [%]", strain_of, sheet);
   add_measure(result, "smallest bend radius [mm]", bend_radius_of, sheet);
   if (!result.play.front().equilibrium->obstacles.empty()) add_measure(result, "smallest clearance [mm]", gap_of, sheet);
+  add_hands(result, sheet);
   return sheet;
 }
 

@@ -1,4 +1,4 @@
-// Strain, bend radius and clearance of an installation over its time.
+// Strain, bend radius, clearance and hands of an installation over its time.
 #pragma once
 
 #include <string>

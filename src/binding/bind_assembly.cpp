@@ -267,7 +267,7 @@ void bind_assembly(lua_State* L) {
       .method("save", {.takes = {"path"}, .does = "Writes the paths of all grips into a .csv or .json: s, mm, quaternions.", .example = example + "a:save(\"paths.csv\")\na:save(\"paths.json\")"},
               save_assembly)
       .method("chart", {.options = {option<std::string>("title", "", "Above it; default: \"Installation\"")},
-                        .does = "Strain, bend radius and clearance over time, one below the other.", .example = example + "print(a:chart())"},
+                        .does = "Strain, bend radius, clearance and hands over time, one below the other.", .example = example + "print(a:chart())"},
               [](const AssemblyHandle& h, const Options& o) { return assembly_chart(*h.result, o.maybe<std::string>("title").value_or("Installation")); })
       .tostring(describe_assembly);
 }

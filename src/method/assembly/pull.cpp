@@ -174,7 +174,7 @@ Pulled pull(const InstalledSystem& system, const Grip& handle, const std::vector
   const Along along(path);
   const SystemEquilibrium& unplugged = first.empty() ? system.routed : out.unplugged.passed.back().equilibrium;
   out.path = path;
-  if (!first.empty() && !gravity)
+  if (!gravity && (!first.empty() || !system.free.branches.empty()))
     for (const std::vector<Vec3>& way : {path, lifted(system, handle)}) {
       out.pulled = carry(system, handle, unplugged, withdrawn(system, first, 1), Along(way), options, solve, context);
       out.ok = out.pulled.ok();

@@ -15,8 +15,8 @@ struct Pulled {
 };
 
 /// Connectors that are plugged into something are first withdrawn straight from their sockets, one after the other, the farthest from
-/// the handle first; without gravity, all connections are then carried along with the handle, along its path or straight up, where
-/// nothing is in the way. Else the connections let go, and the rest follows the handle.
+/// the handle first. Where rods hang together or connectors are plugged in, all connections are then carried along with the handle,
+/// along its path or straight up, if nothing is in the way (not with gravity). Else they let go, and the rest follows the handle.
 /// `gravity`: acts all along; else it is taken away while the connections let go. Springs hold those ever less, from stiffer than
 /// the rods to nothing, so that nothing jumps that need not.
 Pulled pull(const InstalledSystem& system, const Grip& handle, const std::vector<Vec3>& path, bool gravity, const DriveOptions& options,
