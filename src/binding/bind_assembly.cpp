@@ -79,6 +79,7 @@ Schema assembly_schema() {
              option<std::shared_ptr<SceneEquilibrium>>("routed", "", "An equilibrium of the scene: which one is the routed configuration; default: the one that s:solve finds"),
              option<bool>("optimise", "", "Make what was found shorter, smoother, with more clearance and fewer grips").preset(standard.optimise),
              option<double>("optimise_seconds", "s", "For that, at most").at_least(0).preset(standard.optimise_seconds),
+             option<int>("replays", "", "Of what was proven, by hands that stray by a quarter of the thickest radius: is it fragile?").at_least(0).at_most(10000).preset(standard.replays),
          } +
          solve_schema() + method_schema();
 }
@@ -101,6 +102,7 @@ assembly::Options assembly_options(const Options& o) {
   if (o.has("routed")) options.routed = o.get<std::shared_ptr<SceneEquilibrium>>("routed");
   options.optimise = o.get<bool>("optimise");
   options.optimise_seconds = o.get<double>("optimise_seconds");
+  options.replays = o.get<int>("replays");
   options.solve = solve_options(o);
   return options;
 }
@@ -120,6 +122,7 @@ std::string describe_assembly(const AssemblyHandle& h) {
   card.row("deviation", r.proof.deviation, "m", "from the routed configuration");
   card.row("largest strain", plain_number(100 * r.proof.strain) + " %", "'" + r.proof.strain_of + "' at t = " + plain_number(r.proof.strain_at_time));
   card.row("min bend radius", r.proof.bend_radius, "m", "'" + r.proof.bend_radius_of + "' at t = " + plain_number(r.proof.bend_radius_at_time));
+  if (r.robustness.replays > 0) card.row("unsteady hands", std::to_string(r.robustness.arrived) + " of " + std::to_string(r.robustness.replays) + " replays arrived");
   if (r.proof.clearance_to.empty()) card.row("min clearance", "none near");
   else card.row("min clearance", r.proof.clearance, "m", "to '" + r.proof.clearance_to + "' at t = " + plain_number(r.proof.clearance_at_time));
   return card.text();
@@ -134,7 +137,7 @@ int hands_at(const AssemblyHandle& h, double t) {
 /// The state nearest in time.
 std::shared_ptr<SceneEquilibrium> frame_at(const AssemblyHandle& h, double t) {
   const std::vector<assembly::KeyFrame>& play = h.result->play;
-  if (play.empty()) throw UsageError("assembly:frame: no manipulation was proven: " + h.result->message);
+  if (play.empty()) throw UsageError("assembly:frame: no attempt began: " + h.result->message);
   if (t < 0 || t > 1) throw UsageError("assembly:frame: got t = " + plain_number(t) + ", expected 0 to 1");
   const auto nearest = std::min_element(play.begin(), play.end(), [t](const auto& a, const auto& b) { return std::abs(a.t - t) < std::abs(b.t - t); });
   return std::const_pointer_cast<SceneEquilibrium>(nearest->equilibrium);
@@ -257,8 +260,11 @@ void bind_assembly(lua_State* L) {
       .property("paths", "", "Where each grip is: paths[\"hose.start\"](t), t = 0 ... 1 from outside to the routed configuration", [](const AssemblyHandle& h) { return GripPathsHandle{h.result}; })
       .property("handle_path", "m", "Of the handle, outwards, as it was searched", [](const AssemblyHandle& h) { return h.result->handle_path; })
       .property("worst", "", "Strain, bend radius and clearance on the way, when and where", [](const AssemblyHandle& h) { return AssemblyWorstHandle{h.result}; })
+      .property("stopped_at", "m", "Where the best attempt was stopped; nil: one was proven", [](const AssemblyHandle& h) { return h.result->stopped_at; })
+      .property("replays", "", "{of =, arrived =}: replays by hands that stray by a quarter of the thickest radius; where some do not arrive it is fragile",
+                [](const AssemblyHandle& h) { return std::map<std::string, int>{{"of", h.result->robustness.replays}, {"arrived", h.result->robustness.arrived}}; })
       .property("proof", "", "How the forward play went", [](const AssemblyHandle& h) { return AssemblyProofHandle{h.result}; })
-      .method("frame", {.takes = {"t"}, .does = "The equilibrium that was played nearest to t = 0 ... 1; at 1 the connections alone hold it.",
+      .method("frame", {.takes = {"t"}, .does = "The equilibrium that was played nearest to t = 0 ... 1; at 1 the connections alone hold it. Where none was proven: of the attempt that came furthest.",
                         .example = example + "print(a:frame(1):rod(\"hose\").min_bend_radius > 0.05)  --> true"},
               frame_at)
       .method("hands_at", {.takes = {"t"}, .does = "Grips to be held at t = 0 ... 1: one that is a connection and at rest until the end is plugged in and needs no hand.",

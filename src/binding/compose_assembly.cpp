@@ -40,6 +40,8 @@ PictureExtras extras_of(const assembly::Result& result, int frames) {
     }
   }
   if (result.handle_path.size() > 1) extras.paths.push_back({"handle", result.handle_path, red, 3, false});
+  if (result.stopped_at) extras.labels.push_back({*result.stopped_at, std::nullopt, "stopped here", true});
+  if (!result.ok) return extras;
   extras.rows = {{"hands", std::to_string(result.hands), false},
                  {"deviation", quantity(result.proof.deviation, "m"), false},
                  {"largest strain", plain_number(100 * result.proof.strain) + " %", false},

@@ -8,6 +8,7 @@
 #include "method/assembly/key_frames.h"
 #include "method/assembly/optimisation.h"
 #include "method/assembly/path_smoothing.h"
+#include "method/assembly/robustness.h"
 #include "method/assembly/stage.h"
 #include "method/assembly/straight_way.h"
 #include "method/assembly/supplementation.h"
@@ -209,15 +210,18 @@ Played ManipulationSearch::played(const Manipulation& forward, const SystemEquil
   return play(system_, forward, start, options_.deviation * system_.radius, drive_, options_.solve, context);
 }
 
-/// The proven manipulation made better, as far as asked for.
+/// The proven manipulation made better, and replayed by unsteady hands, as far as asked for.
 void ManipulationSearch::keep_best(const Manipulation& forward, Played play, const SystemEquilibrium& start, const HandlePath& path) {
-  if (!options_.optimise) return keep(forward, play, path);
-  MethodStep& step = result_.steps[optimisation];
   const Prove prove = [&](const Manipulation& manipulation, const RunContext& context) { return played(manipulation, start, context); };
-  const Stage stage(step, "runs");
-  const Optimised best = optimised(system_, forward, std::move(play), prove, optimisation_plays, options_.optimise_seconds, context_);
-  step.counts = {{"tried", best.tried}, {"accepted", best.accepted}};
+  Optimised best{forward, std::move(play), 0, 0};
+  if (options_.optimise) {
+    MethodStep& step = result_.steps[optimisation];
+    const Stage stage(step, "runs");
+    best = optimised(system_, forward, std::move(best.played), prove, optimisation_plays, options_.optimise_seconds, context_);
+    step.counts = {{"tried", best.tried}, {"accepted", best.accepted}};
+  }
   keep(best.manipulation, best.played, path);
+  if (options_.replays > 0) result_.robustness = robustness(system_, best.manipulation, prove, options_.replays, context_);
 }
 
 void ManipulationSearch::keep(const Manipulation& forward, const Played& play, const HandlePath& path) {

@@ -33,6 +33,7 @@ struct Options {
   int attempts = 12;                   ///< handles, paths, gravity modes, grips: tried in order of promise
   bool optimise = true;                ///< the found manipulation: shorter, smoother, with more clearance, fewer grips
   double optimise_seconds = 5;         ///< s
+  int replays = 0;                     ///< of the proven manipulation, by hands that stray by a quarter of the thickest radius
   /// Of the scene: which of its equilibria is the routed one, and where the search for it starts; null: found anew.
   std::shared_ptr<const SceneEquilibrium> routed;
   SolveOptions solve;
@@ -56,6 +57,12 @@ struct KeyFrame {
   std::shared_ptr<const SceneEquilibrium> equilibrium;
 };
 
+/// Replays of a proven manipulation by hands that do not follow their paths exactly. Where some do not arrive it is fragile.
+struct Robustness {
+  int replays = 0, arrived = 0;
+  std::vector<std::string> failures;   ///< of each replay, in order; empty: it arrived
+};
+
 /// One try: a handle pulled along one way out and, where it came out, what was traced played forward.
 struct Attempt {
   std::string handle;
@@ -77,6 +84,7 @@ struct Result {
   Manipulation manipulation;           ///< forward: from outside to the routed configuration
   double duration = 1;                 ///< s, of the common time
   Proof proof;
+  Robustness robustness;
   /// Of the proof; where none was found, of the attempt that came furthest, as far as it came.
   std::vector<KeyFrame> play;
   std::optional<Vec3> stopped_at;      ///< m: where that one was stopped

@@ -3,13 +3,9 @@
 
 #include "method/assembly/installed_system.h"
 #include "method/assembly/optimisation.h"
+#include "method/assembly/options.h"
 
 namespace tendril::assembly {
-
-struct Robustness {
-  int replays = 0, arrived = 0;
-  std::vector<std::string> failures;  ///< of each replay, in order; empty: it arrived
-};
 
 /// The manipulation with every grip led astray by up to `most` (m), smoothly over time, another way for each number and seed.
 /// Orientations stay; so do the first poses, and the last: connections end where they belong.
