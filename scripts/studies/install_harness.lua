@@ -54,7 +54,9 @@ yard:rod("hose", rod.new{length = 0.66, section = rod.section{outer = 16 * mm, i
 local hangs = yard:solve{}
 assert(hangs.ok, hangs.message)
 ring(yard, hangs:rod("hose"):at(0.2), 34 * mm, 6 * mm)
-report(method.assembly(yard, {optimise_seconds = 2}), "install_hose", "A hose round a post and through a ring", "hose")
+local threaded = yard:solve{from = hangs}
+assert(threaded.ok, threaded.message)
+report(method.assembly(yard, {routed = threaded, optimise_seconds = 2}), "install_hose", "A hose round a post and through a ring", "hose")
 
 -- The harness: PVC bundles, a lead of 13 mm, a trunk of 11 mm behind the valve cover, cables of 7 mm to the coils and the throttle.
 local bundle = rod.material{young = 20 * MPa, poisson = 0.4, density = 1500}
