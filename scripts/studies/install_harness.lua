@@ -106,5 +106,5 @@ report(installed, "install_harness", "The ignition harness in the engine bay", {
 local board = method.flatten(harness(true), {})
 print(board)
 assert(board.ok, board.message)
-view.new{board, title = "The ignition harness on its build board"}:save(given.out .. "/install_harness_board.png")
+view.new{board, color = {0.2, 0.4, 0.65}, title = "The ignition harness on its build board"}:save(given.out .. "/install_harness_board.png")
 board:save(given.out .. "/install_harness_board.csv")

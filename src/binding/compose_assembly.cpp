@@ -17,6 +17,9 @@ Rgb mixed(double share) {
   return {pale.r + s * (full.r - pale.r), pale.g + s * (full.g - pale.g), pale.b + s * (full.b - pale.b)};
 }
 
+/// "6.45 %".
+std::string percent_text(double share) { return plain_number(std::round(1e4 * share) / 100) + " %"; }
+
 /// "523.4 mm".
 std::string length_text(double metres) { return plain_number(std::round(1e4 * metres) / 10) + " mm"; }
 
@@ -44,7 +47,7 @@ PictureExtras extras_of(const assembly::Result& result, int frames) {
   if (!result.ok) return extras;
   extras.rows = {{"hands", std::to_string(result.hands), false},
                  {"deviation", quantity(result.proof.deviation, "m"), false},
-                 {"largest strain", plain_number(100 * result.proof.strain) + " %", false},
+                 {"largest strain", percent_text(result.proof.strain), false},
                  {"min. bend radius on the way", quantity(result.proof.bend_radius, "m"), false}};
   return extras;
 }
@@ -58,7 +61,7 @@ PictureExtras extras_of(const assembly::FlattenResult& board) {
   }
   extras.rows = {{"board", length_text(board.width) + " x " + length_text(board.height), false},
                  {"crossings", std::to_string(board.crossings), board.crossings > 0},
-                 {"largest strain", plain_number(100 * board.worst_strain) + " %", false}};
+                 {"largest strain", percent_text(board.worst_strain), false}};
   return extras;
 }
 
