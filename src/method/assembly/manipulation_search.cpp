@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/number_text.h"
 #include "method/assembly/connector_ends.h"
@@ -110,20 +111,19 @@ bool ManipulationSearch::run() {
 bool ManipulationSearch::by_handle(const Grip& handle) {
   const Frame from = system_.pose(system_.routed, handle);
   const HandlePathOptions wanted{system_.radius, system_.arm(handle) + 2 * system_.radius, 0, options_.exit};
-  // Connectors leave holes along their rods.
-  std::vector<HandlePath> straight;
-  if (!system_.connectors.empty()) straight = straight_ways(*space_, from, wanted);
-  std::reverse(straight.begin(), straight.end());
+  std::vector<HandlePath> straight = straight_ways(*space_, from, wanted);
   std::optional<HandlePaths> paths;
   const auto next = [&]() -> std::optional<HandlePath> {
-    if (!straight.empty()) {
-      const HandlePath path = std::move(straight.back());
-      straight.pop_back();
-      return path;
-    }
     const Stage stage(result_.steps[handle_path_planning], "searches");
-    if (!paths) paths.emplace(*space_, from.at, wanted, context_);
-    return paths->next();
+    // Connectors leave holes along their rods; without them that is the last resort.
+    if (system_.connectors.empty() || straight.empty()) {
+      if (!paths) paths.emplace(*space_, from.at, wanted, context_);
+      if (const std::optional<HandlePath> path = paths->next()) return path;
+    }
+    if (straight.empty()) return std::nullopt;
+    const HandlePath path = std::move(straight.front());
+    straight.erase(straight.begin());
+    return path;
   };
   std::optional<HandlePath> path = next();
   if (!path && result_.message.empty()) {
@@ -184,6 +184,7 @@ bool ManipulationSearch::supplemented(const Manipulation& all, const Attempt& ki
   std::vector<std::string> names;
   for (const Grip& grip : system_.connections) names.push_back(grip.name);
   names.push_back(kind.handle);
+  std::string before;  // what stopped the play with one grip less
   for (int more = 0; more <= most_supplementary && may_go_on(); ++more) {
     Attempt attempt = kind;
     if (more > 0) attempt.seconds = 0;
@@ -199,6 +200,8 @@ bool ManipulationSearch::supplemented(const Manipulation& all, const Attempt& ki
       keep_best(forward, std::move(play), start, path);
       return true;
     }
+    // One more grip that changes nothing at all was at the wrong place, or it is no matter of grips.
+    if (std::exchange(before, attempt.outcome) == attempt.outcome) return false;
     const std::string next = supplementary_grip(system_, all, forward, play);
     if (next.empty()) return false;
     names.push_back(next);
