@@ -57,7 +57,7 @@ PictureExtras extras_of(const assembly::FlattenResult& board) {
   for (const assembly::BoardPoint& point : board.points) extras.labels.push_back({point.at, std::nullopt, point.name, false});
   for (const assembly::BoardLine& line : board.lines) {
     if (line.points.empty()) continue;
-    extras.labels.push_back({line.points[line.points.size() / 2], std::nullopt, line.rod + " " + length_text(line.length), false});
+    extras.labels.push_back({line.points[line.points.size() / 2], std::nullopt, length_text(line.length), false});
   }
   extras.rows = {{"board", length_text(board.width) + " x " + length_text(board.height), false},
                  {"crossings", std::to_string(board.crossings), board.crossings > 0},
