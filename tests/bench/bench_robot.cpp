@@ -1,7 +1,7 @@
-// Kinematics of a six-axis arm: all link frames, and the Jacobian of the flange.
+// Kinematics of a six-axis arm: all link frames, the Jacobian of the flange, and the joint values for a place of it.
 #include <benchmark/benchmark.h>
 
-#include "robot/robot.h"
+#include "robot/inverse.h"
 
 using namespace tendril;
 
@@ -56,5 +56,18 @@ void robot_jacobian(benchmark::State& state) {
   }
 }
 BENCHMARK(robot_jacobian);
+
+void robot_inverse(benchmark::State& state) {
+  const auto robot = std::make_shared<const Robot>(arm());
+  const InverseKinematics inverse(robot, 7);
+  const auto q = values();
+  std::vector<Frame> targets;
+  for (const auto& one : q) targets.push_back(robot->link_frame(7, one));
+  std::size_t found = 0;
+  int i = 0;
+  for (auto _ : state) found += inverse.solve(targets[++i % poses], {.turns = false}).solutions.size();
+  state.counters["solutions"] = static_cast<double>(found) / static_cast<double>(state.iterations());
+}
+BENCHMARK(robot_inverse);
 
 }  // namespace
