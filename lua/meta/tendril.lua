@@ -474,6 +474,73 @@ function equilibrium_methods:moment(name, where) end
 ---@return solved_rod
 function equilibrium_methods:rod(name) end
 
+---A joint of a robot that moves by itself: one entry of its joint values
+---@class joint
+---@field kind string "revolute", "continuous" or "prismatic"
+---@field link string The link that it carries
+---@field lower number Lower limit; -math.huge without one (rad or m)
+---@field name string Its name
+---@field upper number Upper limit; math.huge without one (rad or m)
+---@field velocity number The fastest it goes; math.huge when that is not stated (rad/s or m/s)
+local joint_methods = {}
+
+---Rigid links joined in a tree; it never changes. Joint values are lists of numbers (rad or m) in the order of `joints`; frames stand in the axes of its base, with d1, d2, d3 as a link's x, y, z axes
+---@class robot
+---@field joints (joint)[] The joints that move by themselves, in the order of joint values
+---@field links (string)[] Names of the links, the base first
+---@field name string Its name
+---@field tip string Name of the link at the end of the arm
+local robot_methods = {}
+
+---@class (exact) tendril.robot.collides.options
+---@field scene? scene Its obstacles count as well, against all links that move; default: the robot alone
+---@field at? frame Where the robot's base stands in the scene; default: the origin, z up
+
+---The pairs that touch, each {link, link} or {link, obstacle}; an empty list: none.
+---@param q (number)[]
+---@param options? tendril.robot.collides.options
+---@return ((string)[])[]
+function robot_methods:collides(q, options) end
+
+---How a link's frame moves with the joints, in the link's own axes: three rows for its origin (m), three for its rotation vector (rad), a column for each joint.
+---@param link string
+---@param q (number)[]
+---@return ((number)[])[]
+function robot_methods:jacobian(link, q) end
+
+---Where a link is.
+---@param link string
+---@param q (number)[]
+---@return frame
+function robot_methods:link_frame(link, q) end
+
+---A link's bodies as one mesh, in the link's axes: for pictures, and as an obstacle.
+---@param link string
+---@return mesh
+function robot_methods:mesh(link) end
+
+---What bot:collides looks at: {link, link, kind} for all pairs of links with bodies. Kinds: "checked"; "rigid", "neighbours", "always" and "never" (touching, at 10,000 places within the limits) are not.
+---@return ((string)[])[]
+function robot_methods:pairs() end
+
+---@class (exact) tendril.robot.reaches.options
+---@field link? string The link to bring there; default: the robot's tip
+---@field near? (number)[] Joint values: the nearest solutions come first, and joints that are free stay there; default: 0 (rad or m)
+---@field limits? boolean Only within the joint limits (default true)
+---@field turns? boolean Also solutions that differ by whole turns, where the limits leave room (default true)
+---@field starts? integer Of the numeric search, for arms without a closed form (1 ... 1000000; default 100)
+
+---All joint values that bring a link to a frame, or nil and the reason. With solutions the second result tells which joints are free there, or nil.
+---@param frame frame
+---@param options? tendril.robot.reaches.options
+---@return (number)[][]|nil, string?
+function robot_methods:reaches(frame, options) end
+
+---Whether joint values keep the limits; if not, also which do not.
+---@param q (number)[]
+---@return boolean, string?
+function robot_methods:within_limits(q) end
+
 ---Derivatives of a measure, by parameter: g["hose.length"]
 ---@class gradient
 ---@field derivatives table<string, number> By name, in SI units
@@ -1395,6 +1462,14 @@ function scene.cylinder(options) end
 ---@param options? tendril.scene.plane.options
 ---@return solid
 function scene.plane(options) end
+
+---Robots: what carries a dress pack
+robot = {}
+
+---A robot from a URDF file, or "builtin:six_axis", an industrial arm of 2.5 m reach that comes with the program. Meshes are looked for beside the file and in its package.
+---@param source string
+---@return robot
+function robot.load(source) end
 
 ---What engineers do with scenes: analyses and searches that take a scene and never change it
 method = {}

@@ -13,6 +13,7 @@ void bind_units(lua_State* L);
 void bind_vec(lua_State* L);
 void bind_frame(lua_State* L);
 void bind_rod(lua_State* L);
+void bind_robot(lua_State* L);
 void bind_curve(lua_State* L);
 void bind_scene(lua_State* L);
 void bind_branch(lua_State* L);

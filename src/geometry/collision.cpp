@@ -15,11 +15,6 @@ const S* solid_as(const CollisionShape& shape) {
 
 bool is_half_space(const CollisionShape& shape) { return solid_as<HalfSpace>(shape) != nullptr; }
 
-std::shared_ptr<TouchTest> make_test() {
-  static auto* const make = reinterpret_cast<MakeTouchTest*>(module_entry("collision", "tendril_collide.so", "tendril_make_touch_test"));
-  return std::shared_ptr<TouchTest>(make());
-}
-
 // The lowest that a body gets along a direction given in its own axes.
 double lowest(const CollisionShape& shape, const Vec3& up) {
   if (const auto* surface = std::get_if<std::shared_ptr<const TriangleSurface>>(&shape)) {
@@ -54,6 +49,23 @@ Eigen::AlignedBox3d placed(const Eigen::AlignedBox3d& box, const Frame& at) {
 
 }  // namespace
 
+TouchTest& CollisionBodies::test() {
+  static auto* const make = reinterpret_cast<MakeTouchTest*>(module_entry("collision", "tendril_collide.so", "tendril_make_touch_test"));
+  if (!shared_->test) shared_->test.reset(make());
+  return *shared_->test;
+}
+
+std::shared_ptr<CollisionBodies::Prepared> CollisionBodies::prepared(const std::shared_ptr<const TriangleSurface>& surface) {
+  std::shared_ptr<Prepared>& known = shared_->meshes[surface.get()];
+  if (!known) {
+    auto made = std::make_shared<Prepared>();
+    made->surface = surface;
+    made->number = test().add(surface->mesh());
+    known = std::move(made);
+  }
+  return known;
+}
+
 int CollisionBodies::add(const CollisionShape& shape) {
   Body body{shape, {}, Vec3::Zero()};
   if (const auto* surface = std::get_if<std::shared_ptr<const TriangleSurface>>(&shape)) {
@@ -61,24 +73,13 @@ int CollisionBodies::add(const CollisionShape& shape) {
     body.box = (*surface)->box();
     const Mesh& mesh = (*surface)->mesh();
     body.point = mesh.vertices[mesh.triangles[0][0]];
-    for (const Body& other : bodies_)
-      if (const auto* known = std::get_if<std::shared_ptr<const TriangleSurface>>(&other.shape); known && *known == *surface) {
-        body.number = other.number;
-        body.inside = other.inside;
-      }
-    if (body.number < 0) {
-      if (!test_) test_ = make_test();
-      body.number = test_->add(mesh);
-      body.inside = std::make_shared<Inside>();
-    }
+    body.mesh = prepared(*surface);
+    body.number = body.mesh->number;
   } else {
     const Solid& solid = std::get<Solid>(shape);
     check(solid, "collision");
     body.box = box_of(solid);
-    if (!is_half_space(shape)) {
-      if (!test_) test_ = make_test();
-      body.number = test_->add(solid);
-    }
+    if (!is_half_space(shape)) body.number = test().add(solid);
   }
   bodies_.push_back(std::move(body));
   return size() - 1;
@@ -89,32 +90,32 @@ bool CollisionBodies::touch(int a, const Frame& at_a, int b, const Frame& at_b) 
   if (second.number < 0) return touches_half_space(first.shape, first.box, at_a, at_b);
   if (first.number < 0) return touches_half_space(second.shape, second.box, at_b, at_a);
   // FCL takes a sphere near a triangle without a face for touching it.
-  if (const Sphere* sphere = solid_as<Sphere>(first.shape); sphere && second.inside) return touches_sphere(second, at_b, at_a.at, sphere->radius);
-  if (const Sphere* sphere = solid_as<Sphere>(second.shape); sphere && first.inside) return touches_sphere(first, at_a, at_b.at, sphere->radius);
-  if (test_->touch(first.number, at_a, second.number, at_b)) return true;
+  if (const Sphere* sphere = solid_as<Sphere>(first.shape); sphere && second.mesh) return touches_sphere(second, at_b, at_a.at, sphere->radius);
+  if (const Sphere* sphere = solid_as<Sphere>(second.shape); sphere && first.mesh) return touches_sphere(first, at_a, at_b.at, sphere->radius);
+  if (shared_->test->touch(first.number, at_a, second.number, at_b)) return true;
   return within(first, at_a, second, at_b) || within(second, at_b, first, at_a);
 }
 
 bool CollisionBodies::touches_sphere(const Body& mesh, const Frame& at_mesh, const Vec3& middle, double radius) const {
   const Vec3 local = at_mesh.rotation.conjugate() * (middle - at_mesh.at);
   if (mesh.box.squaredExteriorDistance(local) > radius * radius) return false;
-  if (std::get<std::shared_ptr<const TriangleSurface>>(mesh.shape)->tree().within(local, radius)) return true;
+  if (mesh.mesh->surface->tree().within(local, radius)) return true;
   return holds_point(mesh, local);
 }
 
 // Without a common point of their skins a body is within the other one when any of its points is.
 bool CollisionBodies::within(const Body& small, const Frame& at_small, const Body& large, const Frame& at_large) const {
-  if (!large.inside) return false;  // against a solid the module has told already
+  if (!large.mesh) return false;  // against a solid the module has told already
   const Frame local = at_large.inverse() * at_small;
   if (!large.box.contains(placed(small.box, local))) return false;
   return holds_point(large, local.at + local.rotation * small.point);
 }
 
 bool CollisionBodies::holds_point(const Body& mesh, const Vec3& p) const {
-  const TriangleSurface& surface = *std::get<std::shared_ptr<const TriangleSurface>>(mesh.shape);
-  if (!mesh.box.contains(p) || !surface.topology().watertight()) return false;
-  std::call_once(mesh.inside->once, [&] { mesh.inside->test = std::make_unique<const InsideTest>(surface.mesh()); });
-  return mesh.inside->test->inside(p);
+  Prepared& known = *mesh.mesh;
+  if (!mesh.box.contains(p) || !known.surface->topology().watertight()) return false;
+  std::call_once(known.once, [&] { known.inside = std::make_unique<const InsideTest>(known.surface->mesh()); });
+  return known.inside->inside(p);
 }
 
 }  // namespace tendril

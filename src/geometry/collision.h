@@ -6,6 +6,7 @@
 // watertight: a body wholly within one touches it.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <mutex>
 #include <variant>
@@ -31,10 +32,11 @@ class TouchTest {
 };
 using MakeTouchTest = TouchTest*();
 
-/// Bodies in their own axes. Queries are const and safe from several threads.
+/// Bodies in their own axes. Queries are const and safe from several threads. Copies share what was built: a mesh is prepared
+/// once for all of them and kept as long as one of them lives; add to none of them while another one is asked.
 class CollisionBodies {
  public:
-  /// Returns the body's number, counted from 0. A mesh that was added before is shared. Throws UsageError for a missing
+  /// Returns the body's number, counted from 0. A mesh that was added before is not prepared again. Throws UsageError for a missing
   /// mesh, a solid without size, and when the module cannot be loaded.
   int add(const CollisionShape& shape);
 
@@ -45,24 +47,33 @@ class CollisionBodies {
   bool touch(int a, const Frame& at_a, int b, const Frame& at_b) const;
 
  private:
-  // Built when first needed; what it tests lives in the surface.
-  struct Inside {
-    std::once_flag once;
-    std::unique_ptr<const InsideTest> test;
+  // A mesh as the module has it, and the test for points within it, built when first needed.
+  struct Prepared {
+    std::shared_ptr<const TriangleSurface> surface;
+    int number = -1;
+    std::once_flag once = {};
+    std::unique_ptr<const InsideTest> inside = {};
+  };
+  struct Shared {
+    std::unique_ptr<TouchTest> test;
+    std::map<const TriangleSurface*, std::shared_ptr<Prepared>> meshes;
   };
   struct Body {
     CollisionShape shape;
     Eigen::AlignedBox3d box;  ///< in its own axes, m
     Vec3 point;               ///< of the body
     int number = -1;          ///< in the module; -1: a half-space
-    std::shared_ptr<Inside> inside = {};
+    std::shared_ptr<Prepared> mesh = {};  ///< null: a solid
   };
   bool touches_sphere(const Body& mesh, const Frame& at_mesh, const Vec3& middle, double radius) const;
   bool holds_point(const Body& mesh, const Vec3& p) const;
   bool within(const Body& small, const Frame& at_small, const Body& large, const Frame& at_large) const;
 
+  TouchTest& test();
+  std::shared_ptr<Prepared> prepared(const std::shared_ptr<const TriangleSurface>& surface);
+
   std::vector<Body> bodies_;
-  std::shared_ptr<TouchTest> test_;
+  std::shared_ptr<Shared> shared_ = std::make_shared<Shared>();
 };
 
 }  // namespace tendril
