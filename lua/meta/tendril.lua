@@ -523,6 +523,21 @@ function robot_methods:mesh(link) end
 ---@return ((string)[])[]
 function robot_methods:pairs() end
 
+---@class (exact) tendril.robot.program.options
+---@field dialect "rapid"|"krl"|"urscript"|"ls"|"csv" RAPID (ABB), KRL (KUKA), URScript, LS (FANUC), or rows of numbers
+---@field name? string Of the program (default "path")
+---@field speed? number Share of the joints' velocities (> 0 and <= 1; default 0.5)
+---@field zone? number How near to each point but the first and last the corner may be cut; 0: stop at each (m; >= 0; default 0)
+---@field sign? (number)[] 1 or -1 for each joint: the controller shows sign * q + zero. Default of the map: that of the dialect's maker for upright arms of six axes
+---@field zero? (number)[] What the controller shows for each joint where q is 0; default with a sign: 0 (rad)
+---@field coupling? number How much of the second axis the third one shows on top; FANUC: -1 with sign -1; default with a sign: 0
+
+---A joint path as the program of a robot controller, in text: moves from point to point by their joints.
+---@param path ((number)[])[]
+---@param options tendril.robot.program.options
+---@return string
+function robot_methods:program(path, options) end
+
 ---@class (exact) tendril.robot.reaches.options
 ---@field link? string The link to bring there; default: the robot's tip
 ---@field near? (number)[] Joint values: the nearest solutions come first, and joints that are free stay there; default: 0 (rad or m)
@@ -535,6 +550,19 @@ function robot_methods:pairs() end
 ---@param options? tendril.robot.reaches.options
 ---@return (number)[][]|nil, string?
 function robot_methods:reaches(frame, options) end
+
+---@class (exact) tendril.robot.read_program.options
+---@field dialect? "rapid"|"krl"|"urscript"|"ls"|"csv" Default: by the suffix (.mod, .prg; .src; .script; .ls; .csv, .txt)
+---@field unit? "deg"|"rad" Of the turning joints in a csv file (default "deg")
+---@field sign? (number)[] 1 or -1 for each joint: the controller shows sign * q + zero. Default of the map: that of the dialect's maker for upright arms of six axes
+---@field zero? (number)[] What the controller shows for each joint where q is 0; default with a sign: 0 (rad)
+---@field coupling? number How much of the second axis the third one shows on top; FANUC: -1 with sign -1; default with a sign: 0
+
+---The points that a program or a table of joint values goes through: what bot:program writes, and programs of others that move by joints alone.
+---@param file string
+---@param options? tendril.robot.read_program.options
+---@return ((number)[])[]
+function robot_methods:read_program(file, options) end
 
 ---Whether joint values keep the limits; if not, also which do not.
 ---@param q (number)[]

@@ -1,5 +1,6 @@
 // robot: links, joints, kinematics, collision.
 #include "binding/bind_mesh.h"
+#include "binding/bind_program.h"
 #include "binding/card.h"
 #include "binding/lua_class.h"
 #include "binding/open.h"
@@ -175,8 +176,9 @@ void bind_joint(lua_State* L) {
 }
 
 void bind_robot_class(lua_State* L) {
-  Class<RobotValue>(L, "Rigid links joined in a tree; it never changes. Joint values are lists of numbers (rad or m) in the order of `joints`; "
-                       "frames stand in the axes of its base, with d1, d2, d3 as a link's x, y, z axes")
+  Class<RobotValue> bound(L, "Rigid links joined in a tree; it never changes. Joint values are lists of numbers (rad or m) in the order of `joints`; "
+                       "frames stand in the axes of its base, with d1, d2, d3 as a link's x, y, z axes");
+  bound
       .property("name", "", "Its name", [](const RobotValue& r) { return r.robot->name(); })
       .property("joints", "", "The joints that move by themselves, in the order of joint values",
                 [](const RobotValue& r) {
@@ -208,7 +210,7 @@ void bind_robot_class(lua_State* L) {
               reaches)
       .method("within_limits", {.takes = {"q"}, .returns = "boolean, string?", .does = "Whether joint values keep the limits; if not, also which do not.",
                                 .example = std::string(arm) + "print(bot:within_limits({0, 0, 0, 0, 3, 0}))"
-                                                              "  --> false 'joint_5' at 3, limits -2.0944 ... 2.0944"},
+                                                              "  --> false 'joint_5' at 3, limits -1.95477 ... 1.95477"},
               [](lua_State* state, const RobotValue& r, const JointList& q) {
                 const std::string beyond = r.robot->beyond_limits(q);
                 lua_pushboolean(state, beyond.empty());
@@ -228,6 +230,7 @@ void bind_robot_class(lua_State* L) {
                        .example = std::string(arm) + "print(bot:mesh(\"link_6\").watertight)  --> true"},
               mesh_of_link)
       .tostring(text_of);
+  add_programs(bound);
 }
 
 }  // namespace

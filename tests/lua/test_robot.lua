@@ -130,6 +130,36 @@ check.case("a robot of one's own", function()
   check.equal(#one:collides({1}), 0)
 end)
 
+check.case("programs there and back", function()
+  os.execute("mkdir -p '" .. out .. "'")
+  local path = {{0, 0, 0, 0, 0.5, 0}, {0.4, 0.2, -0.3, 0.1, 0.5, 1}, {-0.4, 0.1, 0.2, 0.3, -0.5, 2}}
+  local files = {rapid = "weld.mod", krl = "weld.src", urscript = "weld.script", ls = "weld.ls", csv = "weld.csv"}
+  for dialect, file in pairs(files) do
+    local text = bot:program(path, {dialect = dialect, name = "weld", speed = 0.3, zone = 0.01})
+    write(out .. "/" .. file, text)
+    local back = bot:read_program(out .. "/" .. file)
+    check.equal(#back, 3)
+    for i = 1, 3 do
+      for k = 1, 6 do check.near(back[i][k], path[i][k], 2e-6, dialect) end
+    end
+  end
+  check.contains(bot:program(path, {dialect = "rapid", name = "weld"}), "MODULE weld", "MoveAbsJ p3", "fine")
+  -- Maps of one's own: a controller that counts the fifth axis the other way, from 90 degrees on.
+  local map = {dialect = "csv", sign = {1, 1, 1, 1, -1, 1}, zero = {0, 0, 0, 0, math.pi / 2, 0}}
+  check.contains(bot:program({{0, 0, 0, 0, math.pi / 6, 0}}, map), "60.0000000")
+  write(out .. "/mapped.csv", bot:program(path, map))
+  local mapped = bot:read_program(out .. "/mapped.csv", {sign = map.sign, zero = map.zero})
+  check.near(mapped[2][5], 0.5, 1e-9)
+  write(out .. "/rad.csv", "0.1 0.2 0.3 0.4 0.5 0.6")
+  check.equal(bot:read_program(out .. "/rad.csv", {unit = "rad"})[1][6], 0.6)
+  check.raises(function() bot:program(path, {dialect = "karel"}) end, "'dialect'", "'ls'")
+  check.raises(function() bot:program({}, {dialect = "ls"}) end, "no points")
+  check.raises(function() bot:program({{0, 3, 0, 0, 0, 0}}, {dialect = "ls"}) end, "point 1", "joint_2")
+  check.raises(function() bot:program(path, {dialect = "ls", sign = {1, 1}}) end, "got 2 signs")
+  check.raises(function() bot:read_program(out .. "/none.ls") end, "no such file")
+  check.raises(function() bot:read_program(out .. "/none.doc") end, "'.doc' are not known")
+end)
+
 check.case("mistakes", function()
   check.raises(function() robot.load("builtin:six") end, "no builtin robot 'six'")
   check.raises(function() robot.load("none.urdf") end, "none.urdf", "no such file")
