@@ -17,14 +17,17 @@ std::string numbers(const Vec3& v) {
 
 std::string link(const std::string& name) {
   const std::string geometry = "<geometry><mesh filename=\"package://tendril_six_axis/meshes/" + name + ".stl\"/></geometry>";
-  return "  <link name=\"" + name + "\">\n    <visual>" + geometry + "</visual>\n    <collision>" + geometry + "</collision>\n  </link>\n";
+  return "  <link name=\"" + name + "\">\n    <visual>" + geometry + "</visual>\n    <collision>" + geometry +
+         "</collision>\n  </link>\n";
 }
 
 std::string joint(const Joint& j) {
   char limit[160];
-  std::snprintf(limit, sizeof limit, "<limit lower=\"%.15g\" upper=\"%.15g\" velocity=\"%.15g\" effort=\"0\"/>", j.lower, j.upper, j.velocity);
-  return std::string("  <joint name=\"") + j.name + "\" type=\"revolute\">\n    <origin xyz=\"" + numbers(j.at * units::mm) + "\"/>\n    <parent link=\"" +
-         j.parent + "\"/>\n    <child link=\"" + j.child + "\"/>\n    <axis xyz=\"" + numbers(j.axis) + "\"/>\n    " + limit + "\n  </joint>\n";
+  std::snprintf(limit, sizeof limit, "<limit lower=\"%.15g\" upper=\"%.15g\" velocity=\"%.15g\" effort=\"0\"/>", j.lower, j.upper,
+                j.velocity);
+  return std::string("  <joint name=\"") + j.name + "\" type=\"revolute\">\n    <origin xyz=\"" + numbers(j.at * units::mm) +
+         "\"/>\n    <parent link=\"" + j.parent + "\"/>\n    <child link=\"" + j.child + "\"/>\n    <axis xyz=\"" +
+         numbers(j.axis) + "\"/>\n    " + limit + "\n  </joint>\n";
 }
 
 }  // namespace
@@ -50,7 +53,8 @@ std::string urdf() {
   std::string out = "<?xml version=\"1.0\"?>\n<robot name=\"six_axis\">\n" + link("base");
   for (const Joint& j : joints()) out += link(j.child) + joint(j);
   // z out of the face, as tools are given.
-  out += "  <link name=\"flange\"/>\n  <joint name=\"joint_flange\" type=\"fixed\">\n    <origin xyz=\"" + numbers({flange * units::mm, 0, 0}) +
+  out += "  <link name=\"flange\"/>\n  <joint name=\"joint_flange\" type=\"fixed\">\n    <origin xyz=\"" +
+         numbers({flange * units::mm, 0, 0}) +
          "\" rpy=\"0 1.570796326794896619 0\"/>\n    <parent link=\"link_6\"/>\n    <child link=\"flange\"/>\n  </joint>\n";
   return out + "</robot>\n";
 }

@@ -29,7 +29,9 @@ double lowest(const CollisionShape& shape, const Vec3& up) {
   if (const Sphere* sphere = std::get_if<Sphere>(&solid)) return -sphere->radius;
   if (const Cylinder* cylinder = std::get_if<Cylinder>(&solid))
     return -cylinder->radius * std::hypot(up.x(), up.y()) - 0.5 * cylinder->length * std::abs(up.z());
-  return up.z() < -1 + 1e-12 ? 0 : -std::numeric_limits<double>::infinity();  // a half-space: none but an opposite one can be clear of another
+  return up.z() < -1 + 1e-12
+             ? 0
+             : -std::numeric_limits<double>::infinity();  // a half-space: none but an opposite one can be clear of another
 }
 
 bool touches_half_space(const CollisionShape& shape, const Eigen::AlignedBox3d& box, const Frame& at, const Frame& plane) {
@@ -50,7 +52,8 @@ Eigen::AlignedBox3d placed(const Eigen::AlignedBox3d& box, const Frame& at) {
 }  // namespace
 
 TouchTest& CollisionBodies::test() {
-  static auto* const make = reinterpret_cast<MakeTouchTest*>(module_entry("collision", "tendril_collide.so", "tendril_make_touch_test"));
+  static auto* const make =
+      reinterpret_cast<MakeTouchTest*>(module_entry("collision", "tendril_collide.so", "tendril_make_touch_test"));
   if (!shared_->test) shared_->test.reset(make());
   return *shared_->test;
 }
@@ -90,8 +93,10 @@ bool CollisionBodies::touch(int a, const Frame& at_a, int b, const Frame& at_b) 
   if (second.number < 0) return touches_half_space(first.shape, first.box, at_a, at_b);
   if (first.number < 0) return touches_half_space(second.shape, second.box, at_b, at_a);
   // FCL takes a sphere near a triangle without a face for touching it.
-  if (const Sphere* sphere = solid_as<Sphere>(first.shape); sphere && second.mesh) return touches_sphere(second, at_b, at_a.at, sphere->radius);
-  if (const Sphere* sphere = solid_as<Sphere>(second.shape); sphere && first.mesh) return touches_sphere(first, at_a, at_b.at, sphere->radius);
+  if (const Sphere* sphere = solid_as<Sphere>(first.shape); sphere && second.mesh)
+    return touches_sphere(second, at_b, at_a.at, sphere->radius);
+  if (const Sphere* sphere = solid_as<Sphere>(second.shape); sphere && first.mesh)
+    return touches_sphere(first, at_a, at_b.at, sphere->radius);
   if (shared_->test->touch(first.number, at_a, second.number, at_b)) return true;
   return within(first, at_a, second, at_b) || within(second, at_b, first, at_a);
 }

@@ -2,8 +2,8 @@
 // solids.h.
 //
 // Meshes, boxes and cylinders against each other by FCL (Pan, Chitta, Manocha: FCL, 2012), in a module that is loaded by
-// the first body; half-spaces, and spheres against meshes, by their own formulas. Solids and half-spaces are full; meshes are skins, and full as well when they are
-// watertight: a body wholly within one touches it.
+// the first body; half-spaces, and spheres against meshes, by their own formulas. Solids and half-spaces are full; meshes are
+// skins, and full as well when they are watertight: a body wholly within one touches it.
 #pragma once
 
 #include <map>
@@ -36,8 +36,8 @@ using MakeTouchTest = TouchTest*();
 /// once for all of them and kept as long as one of them lives; add to none of them while another one is asked.
 class CollisionBodies {
  public:
-  /// Returns the body's number, counted from 0. A mesh that was added before is not prepared again. Throws UsageError for a missing
-  /// mesh, a solid without size, and when the module cannot be loaded.
+  /// Returns the body's number, counted from 0. A mesh that was added before is not prepared again. Throws UsageError for a
+  /// missing mesh, a solid without size, and when the module cannot be loaded.
   int add(const CollisionShape& shape);
 
   int size() const { return static_cast<int>(bodies_.size()); }
@@ -60,9 +60,9 @@ class CollisionBodies {
   };
   struct Body {
     CollisionShape shape;
-    Eigen::AlignedBox3d box;  ///< in its own axes, m
-    Vec3 point;               ///< of the body
-    int number = -1;          ///< in the module; -1: a half-space
+    Eigen::AlignedBox3d box;              ///< in its own axes, m
+    Vec3 point;                           ///< of the body
+    int number = -1;                      ///< in the module; -1: a half-space
     std::shared_ptr<Prepared> mesh = {};  ///< null: a solid
   };
   bool touches_sphere(const Body& mesh, const Frame& at_mesh, const Vec3& middle, double radius) const;

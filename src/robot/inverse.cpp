@@ -1,9 +1,8 @@
 #include "robot/inverse.h"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
-
-#include <Eigen/QR>
 
 #include "base/error.h"
 #include "base/number_text.h"
@@ -14,9 +13,9 @@ namespace tendril {
 namespace {
 
 constexpr double full_turn = 2 * units::pi;
-constexpr double accepted = 1e-9;         // m and rad
+constexpr double accepted = 1e-9;          // m and rad
 constexpr double limit_tolerance = 1e-11;  // rad: rounding; what lies beyond by less is put on the limit
-constexpr int most_turns = 6;  // of a joint whose limits are taken for limits of turns
+constexpr int most_turns = 6;              // of a joint whose limits are taken for limits of turns
 
 // The zero position's axes of the joints on the way to a link.
 std::array<ScrewAxis, 6> screw_axes(const Robot& robot, const std::vector<int>& moving) {
@@ -40,7 +39,8 @@ double largest_difference(const std::vector<double>& a, const std::vector<double
 }  // namespace
 
 InverseKinematics::InverseKinematics(std::shared_ptr<const Robot> robot, int link) : robot_(std::move(robot)), link_(link) {
-  if (link < 0 || link >= static_cast<int>(robot_->links().size())) throw UsageError("inverse kinematics: the robot has no link of the number " + std::to_string(link));
+  if (link < 0 || link >= static_cast<int>(robot_->links().size()))
+    throw UsageError("inverse kinematics: the robot has no link of the number " + std::to_string(link));
   bool mimicry = false, shifts = false;
   for (int at : robot_->chain(link)) {
     if (at == 0 || robot_->joints()[at - 1].kind == JointKind::fixed) continue;
@@ -52,10 +52,15 @@ InverseKinematics::InverseKinematics(std::shared_ptr<const Robot> robot, int lin
     const int v = static_cast<int>(std::find(variables.begin(), variables.end(), followed) - variables.begin());
     if (std::find(moving_.begin(), moving_.end(), v) == moving_.end()) moving_.push_back(v);
   }
-  if (mimicry) why_not_ = "a joint mimics another one";
-  else if (moving_.size() != 6) why_not_ = std::to_string(moving_.size()) + " joints move '" + robot_->links()[link].name + "', not six";
-  else if (shifts) why_not_ = "a joint shifts instead of turning";
-  else wrist_ = SphericalWristArm::from_axes(screw_axes(*robot_, moving_), robot_->link_frame(link, std::vector<double>(robot_->size(), 0.0)), why_not_);
+  if (mimicry)
+    why_not_ = "a joint mimics another one";
+  else if (moving_.size() != 6)
+    why_not_ = std::to_string(moving_.size()) + " joints move '" + robot_->links()[link].name + "', not six";
+  else if (shifts)
+    why_not_ = "a joint shifts instead of turning";
+  else
+    wrist_ = SphericalWristArm::from_axes(screw_axes(*robot_, moving_),
+                                          robot_->link_frame(link, std::vector<double>(robot_->size(), 0.0)), why_not_);
 }
 
 double InverseKinematics::residual(Robot::JointValues q, const Frame& target) const {
@@ -76,25 +81,29 @@ std::vector<double> InverseKinematics::reference(const InverseOptions& options) 
 InverseResult InverseKinematics::solve(const Frame& target, const InverseOptions& options, const RunContext& context) const {
   if (!all_finite(target.at) || !all_finite(target.rotation.coeffs()) || std::abs(target.rotation.norm() - 1) > 1e-6)
     throw UsageError("inverse kinematics: the target is no finite frame");
-  if (options.starts < 1) throw UsageError("inverse kinematics: got " + std::to_string(options.starts) + " starts, expected one or more");
+  if (options.starts < 1)
+    throw UsageError("inverse kinematics: got " + std::to_string(options.starts) + " starts, expected one or more");
   const std::vector<double> near = reference(options);
   InverseResult result;
   if (moving_.empty()) {
-    if (residual(near, target) < accepted) result.solutions.push_back(near);
-    else result.message = "no joint moves '" + robot_->links()[link_].name + "'";
+    if (residual(near, target) < accepted)
+      result.solutions.push_back(near);
+    else
+      result.message = "no joint moves '" + robot_->links()[link_].name + "'";
   } else if (closed_form() && !options.numeric) {
     solve_closed_form(target, options, near, result);
   } else {
     solve_numeric(target, options, near, context, result);
   }
-  std::stable_sort(result.solutions.begin(), result.solutions.end(), [&](const auto& a, const auto& b) {
-    return largest_difference(a, near) < largest_difference(b, near);
-  });
-  if (!result.solutions.empty() && (result.status == Status::infeasible || result.status == Status::stalled)) result.status = Status::solved;
+  std::stable_sort(result.solutions.begin(), result.solutions.end(),
+                   [&](const auto& a, const auto& b) { return largest_difference(a, near) < largest_difference(b, near); });
+  if (!result.solutions.empty() && (result.status == Status::infeasible || result.status == Status::stalled))
+    result.status = Status::solved;
   return result;
 }
 
-void InverseKinematics::solve_closed_form(const Frame& target, const InverseOptions& options, const std::vector<double>& near, InverseResult& result) const {
+void InverseKinematics::solve_closed_form(const Frame& target, const InverseOptions& options, const std::vector<double>& near,
+                                          InverseResult& result) const {
   result.closed_form = true;
   SphericalWristArm::Angles start;
   std::array<std::string, 6> names;
@@ -162,7 +171,8 @@ bool InverseKinematics::polish(const Frame& target, std::vector<double>& q) cons
   return error < accepted;
 }
 
-void InverseKinematics::add_turns(const std::vector<double>& q, const InverseOptions& options, const std::vector<double>& near, InverseResult& result) const {
+void InverseKinematics::add_turns(const std::vector<double>& q, const InverseOptions& options, const std::vector<double>& near,
+                                  InverseResult& result) const {
   std::vector<std::vector<double>> all = {q};
   for (int v : moving_) {
     std::vector<double> places;  // of this joint, the one nearest to `near` first
@@ -190,7 +200,8 @@ void InverseKinematics::add_turns(const std::vector<double>& q, const InverseOpt
     all = std::move(more);
   }
   for (auto& one : all) {
-    const bool known = std::any_of(result.solutions.begin(), result.solutions.end(), [&](const auto& other) { return largest_difference(one, other) < 1e-7; });
+    const bool known = std::any_of(result.solutions.begin(), result.solutions.end(),
+                                   [&](const auto& other) { return largest_difference(one, other) < 1e-7; });
     if (!known) result.solutions.push_back(std::move(one));
   }
 }

@@ -16,20 +16,21 @@
 namespace tendril {
 
 struct InverseOptions {
-  std::vector<double> near = {};  ///< all of q: solutions are given nearest to it first; joints that do not carry the link and joints
-                             ///< that are free where the arm is singular stay there. Empty: 0, or the limit nearest to it
-  bool limits = true;        ///< only solutions within the joint limits
-  bool turns = true;         ///< also those that differ by whole turns, of joints whose limits leave room for two to six; false:
-                             ///< of each only the one nearest to `near`. Without limits no turns are added.
-  bool numeric = false;      ///< not in closed form, even where there is one
-  int starts = 100;          ///< of the numeric search
+  std::vector<double> near =
+      {};                ///< all of q: solutions are given nearest to it first; joints that do not carry the link and joints
+                         ///< that are free where the arm is singular stay there. Empty: 0, or the limit nearest to it
+  bool limits = true;    ///< only solutions within the joint limits
+  bool turns = true;     ///< also those that differ by whole turns, of joints whose limits leave room for two to six; false:
+                         ///< of each only the one nearest to `near`. Without limits no turns are added.
+  bool numeric = false;  ///< not in closed form, even where there is one
+  int starts = 100;      ///< of the numeric search
 };
 
 struct InverseResult {
   /// solved; infeasible: proven that there is no solution; stalled: the numeric search found none; cancelled, timeout: what
   /// was found until then is kept.
   Status status = Status::infeasible;
-  std::string message;  ///< why there is none; with solutions: what is singular, else empty
+  std::string message;                         ///< why there is none; with solutions: what is singular, else empty
   std::vector<std::vector<double>> solutions;  ///< of all of q, nearest to `near` first (largest difference of a joint)
   bool closed_form = false;
   bool singular = false;  ///< a joint may stand anywhere, or branches meet; see the message
@@ -52,11 +53,13 @@ class InverseKinematics {
 
  private:
   std::vector<double> reference(const InverseOptions& options) const;
-  void solve_closed_form(const Frame& target, const InverseOptions& options, const std::vector<double>& near, InverseResult& result) const;
-  void solve_numeric(const Frame& target, const InverseOptions& options, const std::vector<double>& near, const RunContext& context,
-                     InverseResult& result) const;
+  void solve_closed_form(const Frame& target, const InverseOptions& options, const std::vector<double>& near,
+                         InverseResult& result) const;
+  void solve_numeric(const Frame& target, const InverseOptions& options, const std::vector<double>& near,
+                     const RunContext& context, InverseResult& result) const;
   bool polish(const Frame& target, std::vector<double>& q) const;
-  void add_turns(const std::vector<double>& q, const InverseOptions& options, const std::vector<double>& near, InverseResult& result) const;
+  void add_turns(const std::vector<double>& q, const InverseOptions& options, const std::vector<double>& near,
+                 InverseResult& result) const;
 
   std::shared_ptr<const Robot> robot_;
   int link_;

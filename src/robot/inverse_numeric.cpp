@@ -1,10 +1,9 @@
 // Inverse kinematics by damped least squares (Levenberg and Marquardt; Nakamura and Hanafusa 1986) from many starts: the
 // reference, then points drawn evenly within the limits. Joints at a limit that would leave it are held there for the step.
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <random>
-
-#include <Eigen/Cholesky>
 
 #include "base/number_text.h"
 #include "base/units.h"
@@ -16,10 +15,10 @@ namespace {
 
 constexpr double full_turn = 2 * units::pi;
 constexpr int most_steps = 200;
-constexpr double good = 1e-12;            // m and rad: no further steps
+constexpr double good = 1e-12;  // m and rad: no further steps
 constexpr double accepted = 1e-9;
-constexpr int most_of_redundant = 8;      // solutions of an arm that has infinitely many
-constexpr double shift_range = 1;         // m: where joints without limits start
+constexpr int most_of_redundant = 8;  // solutions of an arm that has infinitely many
+constexpr double shift_range = 1;     // m: where joints without limits start
 
 using Vec6 = Eigen::Matrix<double, 6, 1>;
 
@@ -29,8 +28,15 @@ double uniform(std::mt19937_64& random) { return static_cast<double>(random() >>
 class Descent {
  public:
   Descent(const Robot& robot, int link, const std::vector<int>& moving, const Frame& target, bool limits)
-      : robot_(robot), link_(link), moving_(moving), target_(target), limits_(limits), jacobian_(6, robot.size()),
-        columns_(6, moving.size()), normal_(moving.size(), moving.size()), step_(moving.size()) {}
+      : robot_(robot),
+        link_(link),
+        moving_(moving),
+        target_(target),
+        limits_(limits),
+        jacobian_(6, robot.size()),
+        columns_(6, moving.size()),
+        normal_(moving.size(), moving.size()),
+        step_(moving.size()) {}
 
   /// Returns what is left, m and rad added.
   double run(std::vector<double>& q) {
@@ -108,8 +114,8 @@ class Descent {
   int stuck_ = 0;
 };
 
-std::vector<double> start(const Robot& robot, const std::vector<int>& moving, const InverseOptions& options, const std::vector<double>& near, std::uint64_t seed,
-                          int number) {
+std::vector<double> start(const Robot& robot, const std::vector<int>& moving, const InverseOptions& options,
+                          const std::vector<double>& near, std::uint64_t seed, int number) {
   std::vector<double> q = near;
   std::mt19937_64 random(seed * 0x9e3779b97f4a7c15ULL + static_cast<std::uint64_t>(number));
   random.discard(4);
@@ -117,7 +123,8 @@ std::vector<double> start(const Robot& robot, const std::vector<int>& moving, co
     double lower = robot.lower()[v], upper = robot.upper()[v];
     const double range = robot.variable(v).kind == JointKind::prismatic ? shift_range : units::pi;
     if (number > 0) {
-      if (!std::isfinite(lower) || (range == units::pi && upper - lower > full_turn)) lower = std::max(lower, std::min(upper, near[v] + range) - 2 * range);
+      if (!std::isfinite(lower) || (range == units::pi && upper - lower > full_turn))
+        lower = std::max(lower, std::min(upper, near[v] + range) - 2 * range);
       if (!std::isfinite(upper) || (range == units::pi && upper - lower > full_turn)) upper = std::min(upper, lower + 2 * range);
       q[v] = lower + (upper - lower) * uniform(random);
     }
@@ -128,8 +135,8 @@ std::vector<double> start(const Robot& robot, const std::vector<int>& moving, co
 
 }  // namespace
 
-void InverseKinematics::solve_numeric(const Frame& target, const InverseOptions& options, const std::vector<double>& near, const RunContext& context,
-                                      InverseResult& result) const {
+void InverseKinematics::solve_numeric(const Frame& target, const InverseOptions& options, const std::vector<double>& near,
+                                      const RunContext& context, InverseResult& result) const {
   double nearest = std::numeric_limits<double>::infinity();
   std::vector<double> nearest_q;
   result.status = Status::stalled;
@@ -154,8 +161,9 @@ void InverseKinematics::solve_numeric(const Frame& target, const InverseOptions&
     return;
   }
   const Frame miss = robot_->link_frame(link_, nearest_q).inverse() * target;
-  result.message = "none of " + std::to_string(options.starts) + " starts found a solution; the nearest is " + number_text(miss.at.norm()) + " m and " +
-                   number_text(log_rotation(miss.rotation).norm() / units::deg) + " deg away";
+  result.message = "none of " + std::to_string(options.starts) + " starts found a solution; the nearest is " +
+                   number_text(miss.at.norm()) + " m and " + number_text(log_rotation(miss.rotation).norm() / units::deg) +
+                   " deg away";
 }
 
 }  // namespace tendril

@@ -17,8 +17,14 @@ inline Frame Robot::moved(const Step& step, const double* q) {
   return frame;
 }
 
+void Robot::check_link(int link) const {
+  if (link < 0 || link >= static_cast<int>(links_.size()))
+    throw UsageError("robot '" + name_ + "': there is no link of the number " + std::to_string(link));
+}
+
 Frame Robot::link_frame(int link, JointValues q) const {
   check(q, "link_frame");
+  check_link(link);
   Frame frame;
   for (int at = link; at > 0; at = steps_[at - 1].parent) frame = moved(steps_[at - 1], q.data()) * frame;
   return frame;
@@ -26,7 +32,9 @@ Frame Robot::link_frame(int link, JointValues q) const {
 
 void Robot::link_frames(JointValues q, std::span<Frame> frames) const {
   check(q, "link_frames");
-  if (frames.size() != links_.size()) throw UsageError("link_frames: got room for " + std::to_string(frames.size()) + " frames, expected " + std::to_string(links_.size()));
+  if (frames.size() != links_.size())
+    throw UsageError("link_frames: got room for " + std::to_string(frames.size()) + " frames, expected " +
+                     std::to_string(links_.size()));
   frames[0] = Frame{};
   for (std::size_t k = 0; k < steps_.size(); ++k) frames[k + 1] = frames[steps_[k].parent] * moved(steps_[k], q.data());
 }
@@ -39,7 +47,9 @@ std::vector<Frame> Robot::link_frames(JointValues q) const {
 
 Frame Robot::jacobian(int link, JointValues q, Eigen::Ref<Jacobian> out) const {
   check(q, "jacobian");
-  if (out.cols() != size()) throw UsageError("jacobian: got room for " + std::to_string(out.cols()) + " columns, expected " + std::to_string(size()));
+  check_link(link);
+  if (out.cols() != size())
+    throw UsageError("jacobian: got room for " + std::to_string(out.cols()) + " columns, expected " + std::to_string(size()));
   out.setZero();
   Frame frame;  // of the link, in the axes of the link at hand
   for (int at = link; at > 0; at = steps_[at - 1].parent) {

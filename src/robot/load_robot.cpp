@@ -43,7 +43,8 @@ std::shared_ptr<const Robot> load_robot(const std::string& name) {
     if (fs::exists(file, error)) return load_urdf(file.lexically_normal().string());
     looked += (looked.empty() ? "'" : ", '") + file.lexically_normal().string() + "'";
   }
-  throw UsageError("robot: the files of '" + name + "' are missing (looked for " + (looked.empty() ? "the program's own folder" : looked) +
+  throw UsageError("robot: the files of '" + name + "' are missing (looked for " +
+                   (looked.empty() ? "the program's own folder" : looked) +
                    "); build them or set TENDRIL_ASSETS to the folder of '" + wanted + "'");
 }
 

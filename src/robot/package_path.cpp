@@ -57,9 +57,10 @@ std::string in_package(const std::string& name, const fs::path& start) {
     if (is_file(tail)) return tail.string();
   }
   if (searched.folders.empty())
-    throw UsageError("there is no package '" + package + "' for '" + name + "': looked for a package.xml of that name in '" + start.string() +
-                     "' and the folders above it");
-  throw UsageError("there is no file '" + rest.string() + "' in the package '" + package + "' (" + searched.folders.front().string() + ")");
+    throw UsageError("there is no package '" + package + "' for '" + name + "': looked for a package.xml of that name in '" +
+                     start.string() + "' and the folders above it");
+  throw UsageError("there is no file '" + rest.string() + "' in the package '" + package + "' (" +
+                   searched.folders.front().string() + ")");
 }
 
 }  // namespace

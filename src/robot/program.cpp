@@ -35,11 +35,16 @@ bool is_upright_arm(const Robot& robot) {
 }
 
 void check_options(const ProgramOptions& options) {
-  if (!(options.speed > 0 && options.speed <= 1)) throw UsageError("program: the speed is " + number_text(options.speed) + ", expected a share above 0, at most 1");
-  if (!(options.zone >= 0 && std::isfinite(options.zone))) throw UsageError("program: the zone is " + number_text(options.zone) + " m, expected 0 or more");
-  const bool good = !options.name.empty() && options.name.size() <= 24 && std::isalpha(static_cast<unsigned char>(options.name[0])) &&
-                    std::all_of(options.name.begin(), options.name.end(), [](unsigned char c) { return std::isalnum(c) || c == '_'; });
-  if (!good) throw UsageError("program: the name is '" + options.name + "', expected a letter, then letters, digits and _, at most 24 in all");
+  if (!(options.speed > 0 && options.speed <= 1))
+    throw UsageError("program: the speed is " + number_text(options.speed) + ", expected a share above 0, at most 1");
+  if (!(options.zone >= 0 && std::isfinite(options.zone)))
+    throw UsageError("program: the zone is " + number_text(options.zone) + " m, expected 0 or more");
+  const bool good =
+      !options.name.empty() && options.name.size() <= 24 && std::isalpha(static_cast<unsigned char>(options.name[0])) &&
+      std::all_of(options.name.begin(), options.name.end(), [](unsigned char c) { return std::isalnum(c) || c == '_'; });
+  if (!good)
+    throw UsageError("program: the name is '" + options.name +
+                     "', expected a letter, then letters, digits and _, at most 24 in all");
 }
 
 void check_points(const Robot& robot, const JointPath& path) {
@@ -47,7 +52,8 @@ void check_points(const Robot& robot, const JointPath& path) {
   for (std::size_t i = 0; i < path.size(); ++i) {
     const std::string who = "program, point " + std::to_string(i + 1);
     robot.check(path[i], who.c_str());
-    if (const std::string beyond = robot.beyond_limits(path[i], 1e-9); !beyond.empty()) throw UsageError(who + ": beyond the joint limits: " + beyond);
+    if (const std::string beyond = robot.beyond_limits(path[i], 1e-9); !beyond.empty())
+      throw UsageError(who + ": beyond the joint limits: " + beyond);
   }
 }
 
@@ -56,7 +62,9 @@ double seconds_between(const Robot& robot, const std::vector<double>& from, cons
   double longest = 0;
   for (int k = 0; k < robot.size(); ++k) {
     const double velocity = robot.variable(k).velocity;
-    if (std::isinf(velocity)) throw UsageError("program: the velocity of joint '" + robot.variable(k).name + "' is not stated, so that moves have no time");
+    if (std::isinf(velocity))
+      throw UsageError("program: the velocity of joint '" + robot.variable(k).name +
+                       "' is not stated, so that moves have no time");
     longest = std::max(longest, std::abs(to[k] - from[k]) / (speed * velocity));
   }
   return longest;
@@ -84,11 +92,16 @@ program::Moves moves_of(const Robot& robot, const JointPath& path, const Program
 
 const char* name_of(Dialect dialect) {
   switch (dialect) {
-    case Dialect::rapid: return "rapid";
-    case Dialect::krl: return "krl";
-    case Dialect::urscript: return "urscript";
-    case Dialect::ls: return "ls";
-    case Dialect::csv: return "csv";
+    case Dialect::rapid:
+      return "rapid";
+    case Dialect::krl:
+      return "krl";
+    case Dialect::urscript:
+      return "urscript";
+    case Dialect::ls:
+      return "ls";
+    case Dialect::csv:
+      return "csv";
   }
   return "unknown";
 }
@@ -109,19 +122,22 @@ Dialect dialect_of_file(const std::string& path) {
   if (suffix == ".script" || suffix == ".urscript") return Dialect::urscript;
   if (suffix == ".ls") return Dialect::ls;
   if (suffix == ".csv" || suffix == ".txt") return Dialect::csv;
-  throw UsageError("program '" + path + "': files of the suffix '" + suffix + "' are not known (.mod, .prg, .src, .script, .urscript, .ls, .csv, .txt); name the dialect");
+  throw UsageError("program '" + path + "': files of the suffix '" + suffix +
+                   "' are not known (.mod, .prg, .src, .script, .urscript, .ls, .csv, .txt); name the dialect");
 }
 
 AxisMap AxisMap::same(int joints) { return {std::vector<double>(joints, 1.0), std::vector<double>(joints, 0.0), 0}; }
 
 void AxisMap::check(int joints) const {
   if (static_cast<int>(sign.size()) != joints || static_cast<int>(zero.size()) != joints)
-    throw UsageError("axis map: got " + std::to_string(sign.size()) + " signs and " + std::to_string(zero.size()) + " zeros, expected " + std::to_string(joints) + " each");
+    throw UsageError("axis map: got " + std::to_string(sign.size()) + " signs and " + std::to_string(zero.size()) +
+                     " zeros, expected " + std::to_string(joints) + " each");
   for (double s : sign)
     if (s != 1 && s != -1) throw UsageError("axis map: a sign is " + number_text(s) + ", expected 1 or -1");
   for (double z : zero)
     if (!std::isfinite(z)) throw UsageError("axis map: a zero is " + number_text(z) + ", expected a finite number");
-  if (!std::isfinite(coupling)) throw UsageError("axis map: the coupling is " + number_text(coupling) + ", expected a finite number");
+  if (!std::isfinite(coupling))
+    throw UsageError("axis map: the coupling is " + number_text(coupling) + ", expected a finite number");
   if (coupling != 0 && joints < 3) throw UsageError("axis map: a coupling needs three joints");
 }
 
@@ -143,8 +159,9 @@ AxisMap usual_axes(const Robot& robot, Dialect dialect) {
   AxisMap map = AxisMap::same(robot.size());
   if (dialect != Dialect::krl && dialect != Dialect::ls) return map;
   if (!is_upright_arm(robot))
-    throw UsageError(std::string("program: what '") + name_of(dialect) + "' calls the axes of '" + robot.name() +
-                     "' is not known: it is no arm of six axes along z, y, y, x, y, x with its upper arm upright; give the axis map");
+    throw UsageError(
+        std::string("program: what '") + name_of(dialect) + "' calls the axes of '" + robot.name() +
+        "' is not known: it is no arm of six axes along z, y, y, x, y, x with its upper arm upright; give the axis map");
   if (dialect == Dialect::krl) {
     map.sign = {-1, 1, 1, -1, 1, -1};
     map.zero = {0, -units::pi / 2, units::pi / 2, 0, 0, 0};
@@ -160,31 +177,48 @@ std::string write_program(const Robot& robot, const JointPath& path, const Progr
   check_points(robot, path);
   bool turning = robot.size() == 6;
   for (int k = 0; k < robot.size(); ++k) turning &= robot.variable(k).kind != JointKind::prismatic;
-  if (options.dialect != Dialect::csv && !turning) throw UsageError("program: '" + robot.name() + "' has other than six turning joints: only csv is written for it");
+  if (options.dialect != Dialect::csv && !turning)
+    throw UsageError("program: '" + robot.name() + "' has other than six turning joints: only csv is written for it");
   const AxisMap axes = options.axes.sign.empty() ? usual_axes(robot, options.dialect) : options.axes;
   axes.check(robot.size());
   const program::Moves moves = moves_of(robot, path, options, axes);
   switch (options.dialect) {
-    case Dialect::rapid: return program::write_rapid(moves);
-    case Dialect::krl: return program::write_krl(moves);
-    case Dialect::urscript: return program::write_urscript(moves);
-    case Dialect::ls: return program::write_ls(moves);
-    case Dialect::csv: return program::write_csv(robot, moves);
+    case Dialect::rapid:
+      return program::write_rapid(moves);
+    case Dialect::krl:
+      return program::write_krl(moves);
+    case Dialect::urscript:
+      return program::write_urscript(moves);
+    case Dialect::ls:
+      return program::write_ls(moves);
+    case Dialect::csv:
+      return program::write_csv(robot, moves);
   }
   return "";
 }
 
-JointPath read_program(const Robot& robot, std::string_view text, const std::string& name, Dialect dialect, const AxisMap& given, bool degrees) {
+JointPath read_program(const Robot& robot, std::string_view text, const std::string& name, Dialect dialect, const AxisMap& given,
+                       bool degrees) {
   const AxisMap axes = given.sign.empty() ? usual_axes(robot, dialect) : given;
   axes.check(robot.size());
   const program::Source source{text, name, robot.size()};
   JointPath path;
   switch (dialect) {
-    case Dialect::rapid: path = program::read_rapid(source); break;
-    case Dialect::krl: path = program::read_krl(source); break;
-    case Dialect::urscript: path = program::read_urscript(source); break;
-    case Dialect::ls: path = program::read_ls(source); break;
-    case Dialect::csv: path = program::read_csv(source, robot, degrees); break;
+    case Dialect::rapid:
+      path = program::read_rapid(source);
+      break;
+    case Dialect::krl:
+      path = program::read_krl(source);
+      break;
+    case Dialect::urscript:
+      path = program::read_urscript(source);
+      break;
+    case Dialect::ls:
+      path = program::read_ls(source);
+      break;
+    case Dialect::csv:
+      path = program::read_csv(source, robot, degrees);
+      break;
   }
   if (path.empty()) throw UsageError("program '" + name + "': there are no moves in it");
   for (auto& point : path) point = axes.joints(point);
@@ -197,7 +231,8 @@ JointPath read_program_file(const Robot& robot, const std::string& path, Dialect
   std::string text = read_file(path);
   if (dialect == Dialect::krl)
     for (const char* suffix : {".dat", ".DAT"})
-      if (const auto beside = std::filesystem::path(path).replace_extension(suffix); std::filesystem::is_regular_file(beside, error)) {
+      if (const auto beside = std::filesystem::path(path).replace_extension(suffix);
+          std::filesystem::is_regular_file(beside, error)) {
         text += "\n" + read_file(beside.string());
         break;
       }

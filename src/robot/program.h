@@ -28,7 +28,7 @@ struct AxisMap {
   static AxisMap same(int joints);
   /// Throws UsageError for lists of another length, signs other than 1 and -1, numbers that are not finite.
   void check(int joints) const;
-  std::vector<double> shown(Robot::JointValues q) const;   ///< rad
+  std::vector<double> shown(Robot::JointValues q) const;  ///< rad
   std::vector<double> joints(Robot::JointValues shown) const;
 };
 
@@ -41,9 +41,9 @@ AxisMap usual_axes(const Robot& robot, Dialect dialect);
 struct ProgramOptions {
   Dialect dialect = Dialect::rapid;
   std::string name = "path";
-  AxisMap axes = {};     ///< empty: usual_axes()
-  double speed = 0.5;    ///< share of the joints' own velocities, > 0, at most 1
-  double zone = 0;       ///< m around each point but the first and last within which the corner may be cut; 0: stop at each
+  AxisMap axes = {};   ///< empty: usual_axes()
+  double speed = 0.5;  ///< share of the joints' own velocities, > 0, at most 1
+  double zone = 0;     ///< m around each point but the first and last within which the corner may be cut; 0: stop at each
 };
 
 using JointPath = std::vector<std::vector<double>>;
@@ -60,10 +60,12 @@ std::string write_program(const Robot& robot, const JointPath& path, const Progr
 /// positions by joints; rows of numbers. Throws UsageError with the line: moves by places or along lines, which would be lost;
 /// names that are not declared; lists of another length; numbers that are none. What is beyond the robot's limits is left to
 /// the caller.
-JointPath read_program(const Robot& robot, std::string_view text, const std::string& source, Dialect dialect, const AxisMap& axes, bool degrees = true);
+JointPath read_program(const Robot& robot, std::string_view text, const std::string& source, Dialect dialect, const AxisMap& axes,
+                       bool degrees = true);
 
-/// The same of a file. Beside a .src file the .dat file of its name is read as well: KRL declares positions there (in messages its
-/// lines go on from those of the .src file).
-JointPath read_program_file(const Robot& robot, const std::string& path, Dialect dialect, const AxisMap& axes, bool degrees = true);
+/// The same of a file. Beside a .src file the .dat file of its name is read as well: KRL declares positions there (in messages
+/// its lines go on from those of the .src file).
+JointPath read_program_file(const Robot& robot, const std::string& path, Dialect dialect, const AxisMap& axes,
+                            bool degrees = true);
 
 }  // namespace tendril

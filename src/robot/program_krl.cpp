@@ -11,7 +11,8 @@ namespace {
 // {A1 0,A2 -90,...}, perhaps with a type in front: {E6AXIS: A1 0, ...}. Axes that are left out keep what `angles` holds.
 bool read_axes(const Source& source, const std::string& text, std::size_t offset, std::vector<double>& angles) {
   const auto open = text.find('{'), close = text.rfind('}');
-  if (open == text.npos || close == text.npos || close < open) source.fail(offset, "got '" + text + "', expected {A1 ..., A2 ..., ...}");
+  if (open == text.npos || close == text.npos || close < open)
+    source.fail(offset, "got '" + text + "', expected {A1 ..., A2 ..., ...}");
   std::string inner = lowered(std::string_view(text).substr(open + 1, close - open - 1));
   if (const auto colon = inner.find(':'); colon != inner.npos) inner = inner.substr(colon + 1);
   int given = 0;
@@ -56,7 +57,9 @@ JointPath read_krl(const Source& source) {
     const std::string low = lowered(line.text);
     if (low.find("e6axis ") == low.npos && low.find("axis ") == low.npos) continue;
     const auto assigned = low.find('=');
-    if (assigned == low.npos || !(begins_with_word(low, "decl") || begins_with_word(low, "global") || begins_with_word(low, "e6axis") || begins_with_word(low, "axis"))) continue;
+    if (assigned == low.npos || !(begins_with_word(low, "decl") || begins_with_word(low, "global") ||
+                                  begins_with_word(low, "e6axis") || begins_with_word(low, "axis")))
+      continue;
     const std::string head = trimmed(std::string_view(low).substr(0, assigned));
     std::vector<double> angles(source.joints, 0.0);
     if (read_axes(source, line.text, line.offset, angles)) positions[head.substr(head.find_last_of(" \t") + 1)] = angles;
@@ -74,8 +77,10 @@ JointPath read_krl(const Source& source) {
       angles = found->second;
     } else {
       int axes = 0;
-      for (std::size_t k = rest.find('a'); k != rest.npos; k = rest.find('a', k + 1)) axes += k + 1 < rest.size() && std::isdigit(static_cast<unsigned char>(rest[k + 1]));
-      if (!read_axes(source, line.text, line.offset, angles)) source.fail(line.offset, "moves to places are not read, only to axes: '" + line.text + "'");
+      for (std::size_t k = rest.find('a'); k != rest.npos; k = rest.find('a', k + 1))
+        axes += k + 1 < rest.size() && std::isdigit(static_cast<unsigned char>(rest[k + 1]));
+      if (!read_axes(source, line.text, line.offset, angles))
+        source.fail(line.offset, "moves to places are not read, only to axes: '" + line.text + "'");
       if (path.empty() && axes < source.joints) source.fail(line.offset, "the first point leaves axes out");
     }
     path.push_back(angles);

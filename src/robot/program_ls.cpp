@@ -1,7 +1,7 @@
 // LS: joint moves to taught positions by joints, as FANUC's controllers write programs in text. Angles in degrees.
 #include <algorithm>
-#include <cmath>
 #include <cctype>
+#include <cmath>
 
 #include "base/units.h"
 #include "robot/program_text.h"
@@ -38,7 +38,8 @@ std::string upper_case(std::string text) {
 int position_number(std::string_view text) {
   if (text.substr(0, 2) != "p[") return 0;
   int number = 0;
-  for (std::size_t i = 2; i < text.size() && std::isdigit(static_cast<unsigned char>(text[i])) && number < 100'000; ++i) number = 10 * number + (text[i] - '0');
+  for (std::size_t i = 2; i < text.size() && std::isdigit(static_cast<unsigned char>(text[i])) && number < 100'000; ++i)
+    number = 10 * number + (text[i] - '0');
   return number;
 }
 
@@ -54,7 +55,8 @@ std::map<int, std::vector<double>> positions_of(const Source& source, std::size_
     for (int k = 1; k <= source.joints; ++k) {
       const std::string name = "j" + std::to_string(k);
       std::size_t place = inner.find(name);
-      while (place != inner.npos && inner.find_first_not_of(" \t", place + 2) != inner.find('=', place)) place = inner.find(name, place + 1);
+      while (place != inner.npos && inner.find_first_not_of(" \t", place + 2) != inner.find('=', place))
+        place = inner.find(name, place + 1);
       if (place == inner.npos) break;
       const std::size_t value = inner.find('=', place) + 1, unit = inner.find("deg", value);
       if (unit == inner.npos) source.fail(open + 1 + place, "J" + std::to_string(k) + " is not in deg");
@@ -111,7 +113,8 @@ JointPath read_ls(const Source& source) {
     const int number = position_number(target);
     if (number == 0) source.fail(line.offset, "only moves to positions P[] are read: '" + line.text + "'");
     const auto found = positions.find(number);
-    if (found == positions.end()) source.fail(line.offset, "P[" + std::to_string(number) + "] is not given by its joints in this file");
+    if (found == positions.end())
+      source.fail(line.offset, "P[" + std::to_string(number) + "] is not given by its joints in this file");
     path.push_back(found->second);
   }
   return path;

@@ -108,7 +108,8 @@ std::vector<Statement> statements_of(const Source& source, std::string_view comm
 
 double number(const Source& source, std::string_view text, std::size_t offset) {
   const std::string word = trimmed(text);
-  if (lowered(word).starts_with("d2r(") && word.back() == ')') return number(source, std::string_view(word).substr(4, word.size() - 5), offset) * units::deg;
+  if (lowered(word).starts_with("d2r(") && word.back() == ')')
+    return number(source, std::string_view(word).substr(4, word.size() - 5), offset) * units::deg;
   const char* first = word.data() + (word.starts_with('+') ? 1 : 0);
   double value = 0;
   const auto [end, error] = std::from_chars(first, word.data() + word.size(), value);

@@ -14,12 +14,12 @@ namespace tendril::program {
 /// A path in the controller's own angles, with the times and shares that its moves need.
 struct Moves {
   std::string name;
-  JointPath shown;               ///< rad
-  std::vector<double> seconds;   ///< of the move to each point; the first: 0
-  double speed;                  ///< share
-  double zone;                   ///< m
-  std::vector<double> radius;    ///< m, of each point: the zone, or half the shorter way beside it; 0: stop
-  std::vector<double> share;     ///< the same as a share of half the shorter way
+  JointPath shown;              ///< rad
+  std::vector<double> seconds;  ///< of the move to each point; the first: 0
+  double speed;                 ///< share
+  double zone;                  ///< m
+  std::vector<double> radius;   ///< m, of each point: the zone, or half the shorter way beside it; 0: stop
+  std::vector<double> share;    ///< the same as a share of half the shorter way
 };
 
 std::string write_rapid(const Moves& moves);
@@ -50,8 +50,9 @@ std::string angle_list(const std::vector<double>& angles, bool degrees, int digi
 struct Statement {
   std::string text;
   std::size_t offset;
-  std::vector<std::array<std::size_t, 2>> lines = {};  ///< of one that was joined: where each line begins in `text`, and in the source
-  std::size_t offset_of(std::size_t place) const;      ///< in the source, of a place in `text`
+  std::vector<std::array<std::size_t, 2>> lines =
+      {};  ///< of one that was joined: where each line begins in `text`, and in the source
+  std::size_t offset_of(std::size_t place) const;  ///< in the source, of a place in `text`
 };
 /// Lines without what follows `comment` outside of strings, trimmed; empty ones are left out.
 std::vector<Statement> lines_of(const Source& source, std::string_view comment);

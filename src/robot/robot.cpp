@@ -11,7 +11,9 @@ namespace tendril {
 
 namespace {
 
-std::string of_joint(const std::string& robot, const Joint& joint) { return "robot '" + robot + "', joint '" + joint.name + "': "; }
+std::string of_joint(const std::string& robot, const Joint& joint) {
+  return "robot '" + robot + "', joint '" + joint.name + "': ";
+}
 
 // A unit quaternion times the pure quaternion of a vector.
 Quat times_vector(const Quat& q, const Vec3& v) { return q * Quat(0, v.x(), v.y(), v.z()); }
@@ -20,10 +22,14 @@ Quat times_vector(const Quat& q, const Vec3& v) { return q * Quat(0, v.x(), v.y(
 
 const char* name_of(JointKind kind) {
   switch (kind) {
-    case JointKind::fixed: return "fixed";
-    case JointKind::revolute: return "revolute";
-    case JointKind::continuous: return "continuous";
-    case JointKind::prismatic: return "prismatic";
+    case JointKind::fixed:
+      return "fixed";
+    case JointKind::revolute:
+      return "revolute";
+    case JointKind::continuous:
+      return "continuous";
+    case JointKind::prismatic:
+      return "prismatic";
   }
   return "unknown";
 }
@@ -31,8 +37,8 @@ const char* name_of(JointKind kind) {
 Robot::Robot(std::string name, std::vector<Link> links, std::vector<Joint> joints)
     : name_(std::move(name)), links_(std::move(links)), joints_(std::move(joints)) {
   if (links_.empty() || links_.size() != joints_.size() + 1)
-    throw UsageError("robot '" + name_ + "': got " + std::to_string(links_.size()) + " links and " + std::to_string(joints_.size()) +
-                     " joints, expected one link more than joints");
+    throw UsageError("robot '" + name_ + "': got " + std::to_string(links_.size()) + " links and " +
+                     std::to_string(joints_.size()) + " joints, expected one link more than joints");
   check_names();
   for (int k = 0; k < static_cast<int>(joints_.size()); ++k) check_joint(k);
   number_variables();
@@ -48,8 +54,10 @@ void Robot::check_names() const {
     if (!seen.insert(link.name).second) throw UsageError("robot '" + name_ + "': two links are called '" + link.name + "'");
     for (const auto* shapes : {&link.visual, &link.collision})
       for (const LinkShape& body : *shapes) {
-        if (const Solid* solid = std::get_if<Solid>(&body.shape)) tendril::check(*solid, ("robot '" + name_ + "', link '" + link.name + "'").c_str());
-        else if (!std::get<0>(body.shape)) throw UsageError("robot '" + name_ + "', link '" + link.name + "': a shape has no mesh");
+        if (const Solid* solid = std::get_if<Solid>(&body.shape))
+          tendril::check(*solid, ("robot '" + name_ + "', link '" + link.name + "'").c_str());
+        else if (!std::get<0>(body.shape))
+          throw UsageError("robot '" + name_ + "', link '" + link.name + "': a shape has no mesh");
       }
   }
   seen.clear();
@@ -106,7 +114,8 @@ void Robot::prepare_steps() {
     step.factor = 1;
     step.shift = 0;
     step.variable = number[k];
-    if (joint.kind == JointKind::fixed) step.variable = -1;
+    if (joint.kind == JointKind::fixed)
+      step.variable = -1;
     else if (joint.mimics != -1) {
       step.variable = number[joint.mimics];
       step.factor = joint.factor;
@@ -130,7 +139,8 @@ void Robot::find_limits() {
     lower_[v] = std::max(lower_[v], a);
     upper_[v] = std::min(upper_[v], b);
     if (lower_[v] > upper_[v])
-      throw UsageError(of_joint(name_, joint) + "its limits leave no place to '" + joints_[joint.mimics].name + "', which it mimics");
+      throw UsageError(of_joint(name_, joint) + "its limits leave no place to '" + joints_[joint.mimics].name +
+                       "', which it mimics");
   }
 }
 
@@ -174,10 +184,12 @@ std::vector<int> Robot::chain(int link) const {
 
 void Robot::check(JointValues q, const char* who) const {
   if (static_cast<int>(q.size()) != size())
-    throw UsageError(std::string(who) + ": got " + std::to_string(q.size()) + " joint values, expected " + std::to_string(size()) + " for '" + name_ + "'");
+    throw UsageError(std::string(who) + ": got " + std::to_string(q.size()) + " joint values, expected " +
+                     std::to_string(size()) + " for '" + name_ + "'");
   for (int k = 0; k < size(); ++k)
     if (!std::isfinite(q[k]))
-      throw UsageError(std::string(who) + ": the value of joint '" + variable(k).name + "' is " + number_text(q[k]) + ", expected a finite number");
+      throw UsageError(std::string(who) + ": the value of joint '" + variable(k).name + "' is " + number_text(q[k]) +
+                       ", expected a finite number");
 }
 
 bool Robot::within_limits(JointValues q, double tolerance) const {
@@ -192,8 +204,8 @@ std::string Robot::beyond_limits(JointValues q, double tolerance) const {
   std::string text;
   for (int k = 0; k < size(); ++k) {
     if (q[k] >= lower_[k] - tolerance && q[k] <= upper_[k] + tolerance) continue;
-    text += (text.empty() ? "" : "; ") + ("'" + variable(k).name) + "' at " + number_text(q[k]) + ", limits " + number_text(lower_[k]) + " ... " +
-            number_text(upper_[k]);
+    text += (text.empty() ? "" : "; ") + ("'" + variable(k).name) + "' at " + number_text(q[k]) + ", limits " +
+            number_text(lower_[k]) + " ... " + number_text(upper_[k]);
   }
   return text;
 }

@@ -30,13 +30,13 @@ const char* name_of(JointKind kind);
 struct Joint {
   std::string name;
   JointKind kind = JointKind::fixed;
-  int parent = 0;                  ///< the link that it hangs on
-  Frame origin = {};               ///< in the parent's axes
-  Vec3 axis = Vec3::UnitX();       ///< unit, in the joint's own axes
+  int parent = 0;                                           ///< the link that it hangs on
+  Frame origin = {};                                        ///< in the parent's axes
+  Vec3 axis = Vec3::UnitX();                                ///< unit, in the joint's own axes
   double lower = -std::numeric_limits<double>::infinity();  ///< rad or m
   double upper = std::numeric_limits<double>::infinity();
   double velocity = std::numeric_limits<double>::infinity();  ///< rad/s or m/s; infinite: not stated
-  int mimics = -1;                 ///< another joint: this one stands at factor * (that one) + shift
+  int mimics = -1;                                            ///< another joint: this one stands at factor * (that one) + shift
   double factor = 1, shift = 0;
 };
 
@@ -115,6 +115,7 @@ class Robot {
     bool turns;
   };
   void check_names() const;
+  void check_link(int link) const;
   void check_joint(int k);
   void number_variables();
   void prepare_steps();

@@ -10,17 +10,24 @@ namespace tendril {
 
 const char* name_of(PairKind kind) {
   switch (kind) {
-    case PairKind::checked: return "checked";
-    case PairKind::rigid: return "rigid";
-    case PairKind::neighbours: return "neighbours";
-    case PairKind::always: return "always";
-    case PairKind::never: return "never";
+    case PairKind::checked:
+      return "checked";
+    case PairKind::rigid:
+      return "rigid";
+    case PairKind::neighbours:
+      return "neighbours";
+    case PairKind::always:
+      return "always";
+    case PairKind::never:
+      return "never";
   }
   return "unknown";
 }
 
-RobotCollision::RobotCollision(std::shared_ptr<const Robot> robot, const PairOptions& options, const RunContext& context) : robot_(std::move(robot)) {
-  if (options.samples < 1) throw UsageError("robot collision: got " + std::to_string(options.samples) + " samples, expected one or more");
+RobotCollision::RobotCollision(std::shared_ptr<const Robot> robot, const PairOptions& options, const RunContext& context)
+    : robot_(std::move(robot)) {
+  if (options.samples < 1)
+    throw UsageError("robot collision: got " + std::to_string(options.samples) + " samples, expected one or more");
   add_bodies();
   sort_pairs();
   sample_pairs(options, context);
@@ -30,8 +37,10 @@ void RobotCollision::add_bodies() {
   for (const Link& link : robot_->links()) {
     std::vector<Body>& bodies = links_.emplace_back();
     for (const LinkShape& shape : link.collision) {
-      if (const auto* mesh = std::get_if<std::shared_ptr<const LinkMesh>>(&shape.shape)) bodies.push_back({bodies_.add((*mesh)->surface()), shape.pose});
-      else bodies.push_back({bodies_.add(std::get<Solid>(shape.shape)), shape.pose});
+      if (const auto* mesh = std::get_if<std::shared_ptr<const LinkMesh>>(&shape.shape))
+        bodies.push_back({bodies_.add((*mesh)->surface()), shape.pose});
+      else
+        bodies.push_back({bodies_.add(std::get<Solid>(shape.shape)), shape.pose});
     }
   }
 }
@@ -39,14 +48,17 @@ void RobotCollision::add_bodies() {
 void RobotCollision::sort_pairs() {
   const auto& joints = robot_->joints();
   group_ = {0};
-  for (std::size_t k = 0; k < joints.size(); ++k) group_.push_back(joints[k].kind == JointKind::fixed ? group_[joints[k].parent] : static_cast<int>(k) + 1);
+  for (std::size_t k = 0; k < joints.size(); ++k)
+    group_.push_back(joints[k].kind == JointKind::fixed ? group_[joints[k].parent] : static_cast<int>(k) + 1);
   const auto carried_by = [&](int a, int b) { return group_[a] > 0 && group_[joints[group_[a] - 1].parent] == group_[b]; };
   for (int a = 0; a < static_cast<int>(links_.size()); ++a)
     for (int b = a + 1; b < static_cast<int>(links_.size()); ++b) {
       if (links_[a].empty() || links_[b].empty()) continue;
       PairKind kind = PairKind::checked;
-      if (group_[a] == group_[b]) kind = PairKind::rigid;
-      else if (carried_by(a, b) || carried_by(b, a)) kind = PairKind::neighbours;
+      if (group_[a] == group_[b])
+        kind = PairKind::rigid;
+      else if (carried_by(a, b) || carried_by(b, a))
+        kind = PairKind::neighbours;
       pairs_.push_back({a, b, kind});
     }
 }
@@ -66,8 +78,10 @@ void RobotCollision::sample_pairs(const PairOptions& options, const RunContext& 
   int sample = 0;
   for (; sample < options.samples && !open.empty() && !context.stop(); ++sample) {
     for (int k = 0; k < robot_->size(); ++k) {
-      const double range = robot_->variable(k).kind == JointKind::prismatic ? 1 : units::pi;  // m or rad, where there are no limits
-      const double lower = std::isfinite(robot_->lower()[k]) ? robot_->lower()[k] : std::min(-range, robot_->upper()[k] - 2 * range);
+      const double range =
+          robot_->variable(k).kind == JointKind::prismatic ? 1 : units::pi;  // m or rad, where there are no limits
+      const double lower =
+          std::isfinite(robot_->lower()[k]) ? robot_->lower()[k] : std::min(-range, robot_->upper()[k] - 2 * range);
       const double upper = std::isfinite(robot_->upper()[k]) ? robot_->upper()[k] : lower + 2 * range;
       q[k] = lower + (upper - lower) * static_cast<double>(random() >> 11) * 0x1.0p-53;
     }
@@ -77,8 +91,10 @@ void RobotCollision::sample_pairs(const PairOptions& options, const RunContext& 
   }
   if (sample < options.samples) return;
   for (const Open& one : open) {
-    if (one.touched) one.pair->kind = PairKind::always;
-    else if (options.skip_never) one.pair->kind = PairKind::never;
+    if (one.touched)
+      one.pair->kind = PairKind::always;
+    else if (options.skip_never)
+      one.pair->kind = PairKind::never;
   }
 }
 
@@ -96,7 +112,8 @@ bool RobotCollision::touch_obstacle(int link, const Obstacle& obstacle, const st
 }
 
 int RobotCollision::add_obstacle(const CollisionShape& shape, const Frame& pose) {
-  if (!all_finite(pose.at) || !all_finite(pose.rotation.coeffs())) throw UsageError("robot collision: an obstacle's pose is not finite");
+  if (!all_finite(pose.at) || !all_finite(pose.rotation.coeffs()))
+    throw UsageError("robot collision: an obstacle's pose is not finite");
   obstacles_.push_back({bodies_.add(shape), pose});
   return obstacles() - 1;
 }

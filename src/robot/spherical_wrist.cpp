@@ -73,7 +73,8 @@ struct SphericalWristArm::Search {
   void note_free(int joint) { note("'" + names[joint] + "' is free and stays at " + number_text(near[joint])); }
 };
 
-std::optional<SphericalWristArm> SphericalWristArm::from_axes(const std::array<ScrewAxis, 6>& axes, const Frame& tip, std::string& why_not) {
+std::optional<SphericalWristArm> SphericalWristArm::from_axes(const std::array<ScrewAxis, 6>& axes, const Frame& tip,
+                                                              std::string& why_not) {
   SphericalWristArm arm;
   arm.axes_ = axes;
   arm.tip_inverse_ = tip.inverse();
@@ -92,9 +93,12 @@ std::optional<SphericalWristArm> SphericalWristArm::from_axes(const std::array<S
   arm.wrist_ = *wrist;
   arm.upper_ = normal_part(axes[2].at - axes[1].at, across);
   arm.fore_ = normal_part(*wrist - axes[2].at, across);
-  if (axes[0].along.cross(across).norm() < 1e-3) why_not = "axes 1 and 2 are parallel";
-  else if (arm.upper_.norm() < 1e-6 * arm.size_) why_not = "axes 2 and 3 are one";
-  else if (arm.fore_.norm() < 1e-6 * arm.size_) why_not = "the wrist lies on axis 3";
+  if (axes[0].along.cross(across).norm() < 1e-3)
+    why_not = "axes 1 and 2 are parallel";
+  else if (arm.upper_.norm() < 1e-6 * arm.size_)
+    why_not = "axes 2 and 3 are one";
+  else if (arm.fore_.norm() < 1e-6 * arm.size_)
+    why_not = "the wrist lies on axis 3";
   if (!why_not.empty()) return std::nullopt;
   return arm;
 }
@@ -129,7 +133,8 @@ void SphericalWristArm::elbow(const Vec3& wrist, Angles angles, const Mat3& rota
   const Vec3 across = axes_[1].along;
   const Vec3 to_wrist = normal_part(first.transpose() * (wrist - axes_[0].at) + axes_[0].at - axes_[1].at, across);
   const double distance = to_wrist.norm();
-  const Projected bend = angles_projected(upper_, axes_[2].along, fore_, (distance * distance - upper_.squaredNorm() - fore_.squaredNorm()) / 2);
+  const Projected bend =
+      angles_projected(upper_, axes_[2].along, fore_, (distance * distance - upper_.squaredNorm() - fore_.squaredNorm()) / 2);
   if (!(std::abs(bend.wanted) <= 1 + 1e-10)) {
     search.found.out_of_reach = "the wrist centre would be " + number_text(distance) + " m from the axis of '" + search.names[1] +
                                 "', the arm reaches " + number_text(std::abs(upper_.norm() - fore_.norm())) + " ... " +
@@ -177,7 +182,8 @@ void SphericalWristArm::hand(Angles angles, const Mat3& rotation, Search& search
   }
 }
 
-SphericalWristArm::Branches SphericalWristArm::solve(const Frame& target, const Angles& near, const std::array<std::string, 6>& names) const {
+SphericalWristArm::Branches SphericalWristArm::solve(const Frame& target, const Angles& near,
+                                                     const std::array<std::string, 6>& names) const {
   const Frame moved = target * tip_inverse_;  // of the whole arm, from the zero position
   const Vec3 wrist = moved.at + moved.rotation * wrist_;
   const Mat3 rotation = moved.rotation.toRotationMatrix();

@@ -45,7 +45,7 @@ class SphericalWristArm {
   std::array<ScrewAxis, 6> axes_;
   Vec3 wrist_;
   Frame tip_inverse_;
-  double size_ = 1;  ///< m
+  double size_ = 1;    ///< m
   Vec3 upper_, fore_;  ///< from axis 2 to 3 and from axis 3 to the wrist, normal to them, m
 };
 

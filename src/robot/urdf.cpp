@@ -40,7 +40,9 @@ class UrdfReader {
   std::string attribute(Node node, const char* name) const;
   double number(Node node, const char* name, const std::string& text) const;
   double number(Node node, const char* name) const { return number(node, name, attribute(node, name)); }
-  double number(Node node, const char* name, double otherwise) const { return node.attribute(name) ? number(node, name) : otherwise; }
+  double number(Node node, const char* name, double otherwise) const {
+    return node.attribute(name) ? number(node, name) : otherwise;
+  }
   Vec3 numbers(Node node, const char* name) const;
   Frame origin(Node owner) const;
 
@@ -60,7 +62,7 @@ class UrdfReader {
   std::vector<Node> link_nodes_;
   std::map<std::string, int> link_number_;
   std::vector<FileJoint> joints_;
-  std::vector<int> order_;  ///< of the file's joints, as collected
+  std::vector<int> order_;                                         ///< of the file's joints, as collected
   std::map<std::string, std::shared_ptr<const LinkMesh>> meshes_;  ///< by file and scale
 };
 
@@ -78,7 +80,8 @@ Node UrdfReader::root(pugi::xml_document& document) const {
   if (std::strcmp(robot.name(), "robot") != 0) fail(robot, std::string("got <") + robot.name() + ">, expected <robot>");
   for (Node child : robot.children())
     if (std::strncmp(child.name(), "xacro:", 6) == 0)
-      fail(child, std::string("<") + child.name() + "> is a macro: turn the xacro file into URDF first (xacro FILE.xacro > FILE.urdf)");
+      fail(child,
+           std::string("<") + child.name() + "> is a macro: turn the xacro file into URDF first (xacro FILE.xacro > FILE.urdf)");
   return robot;
 }
 
@@ -157,10 +160,14 @@ LinkShape UrdfReader::read_shape(Node node) {
     shape.shape = mesh(body);
     return shape;
   }
-  if (kind == "box") shape.shape = Solid(Box{numbers(body, "size")});
-  else if (kind == "cylinder") shape.shape = Solid(Cylinder{number(body, "radius"), number(body, "length")});
-  else if (kind == "sphere") shape.shape = Solid(Sphere{number(body, "radius")});
-  else fail(body, "a body of the kind <" + kind + "> is not known: mesh, box, cylinder or sphere expected");
+  if (kind == "box")
+    shape.shape = Solid(Box{numbers(body, "size")});
+  else if (kind == "cylinder")
+    shape.shape = Solid(Cylinder{number(body, "radius"), number(body, "length")});
+  else if (kind == "sphere")
+    shape.shape = Solid(Sphere{number(body, "radius")});
+  else
+    fail(body, "a body of the kind <" + kind + "> is not known: mesh, box, cylinder or sphere expected");
   try {
     check(std::get<Solid>(shape.shape), kind.c_str());
   } catch (const UsageError& wrong) {
@@ -173,7 +180,8 @@ void UrdfReader::read_link(Node node) {
   Link link;
   link.name = attribute(node, "name");
   if (link.name.empty()) fail(node, "a link without a name");
-  if (!link_number_.emplace(link.name, static_cast<int>(links_.size())).second) fail(node, "the link '" + link.name + "' is there twice");
+  if (!link_number_.emplace(link.name, static_cast<int>(links_.size())).second)
+    fail(node, "the link '" + link.name + "' is there twice");
   for (Node child : node.children("visual")) link.visual.push_back(read_shape(child));
   for (Node child : node.children("collision")) link.collision.push_back(read_shape(child));
   links_.push_back(std::move(link));
@@ -212,7 +220,8 @@ void UrdfReader::read_joint(Node node) {
       joint.kind = each;
       known = true;
     }
-  if (!known) fail(node, "the joint '" + joint.name + "' is of the kind '" + kind + "', expected fixed, revolute, continuous or prismatic");
+  if (!known)
+    fail(node, "the joint '" + joint.name + "' is of the kind '" + kind + "', expected fixed, revolute, continuous or prismatic");
   for (const char* end : {"parent", "child"}) {
     const Node link = node.child(end);
     if (!link) fail(node, "the joint '" + joint.name + "' has no <" + end + ">");
@@ -243,7 +252,8 @@ void UrdfReader::check_names() const {
     const std::string who = "the joint '" + read.joint.name + "' ";
     for (const char* end : {"parent", "child"}) {
       const std::string& link = end[0] == 'p' ? read.parent : read.child;
-      if (!link_number_.count(link)) fail(read.node.child(end), who + "joins the unknown link " + unknown_name(link, "links", names));
+      if (!link_number_.count(link))
+        fail(read.node.child(end), who + "joins the unknown link " + unknown_name(link, "links", names));
     }
     if (read.parent == read.child) fail(read.node, who + "joins '" + read.child + "' to itself");
     const auto [at, is_new] = carried.emplace(read.child, read.joint.name);
@@ -260,7 +270,8 @@ int UrdfReader::base() const {
   int found = -1;
   for (std::size_t i = 0; i < links_.size(); ++i) {
     if (carried.count(links_[i].name)) continue;
-    if (found >= 0) fail(link_nodes_[i], "no joint carries '" + links_[found].name + "' nor '" + links_[i].name + "': a robot has one base");
+    if (found >= 0)
+      fail(link_nodes_[i], "no joint carries '" + links_[found].name + "' nor '" + links_[i].name + "': a robot has one base");
     found = static_cast<int>(i);
   }
   if (found < 0) fail(joints_.front().node, "the joints go round in a circle: every link is carried by another one");
@@ -290,7 +301,8 @@ void UrdfReader::collect(int first, std::vector<Link>& links, std::vector<Joint>
   }
   if (links.size() == links_.size()) return;
   for (const FileJoint& read : joints_)
-    if (!placed.count(read.child)) fail(read.node, "the joints go round in a circle: '" + read.child + "' does not hang on the base '" + links[0].name + "'");
+    if (!placed.count(read.child))
+      fail(read.node, "the joints go round in a circle: '" + read.child + "' does not hang on the base '" + links[0].name + "'");
 }
 
 void UrdfReader::resolve_mimicry(std::vector<Joint>& joints) const {
@@ -324,7 +336,9 @@ std::shared_ptr<const Robot> UrdfReader::read() {
 
 }  // namespace
 
-std::shared_ptr<const Robot> parse_urdf(const std::string& text, const std::string& path) { return UrdfReader(text, path).read(); }
+std::shared_ptr<const Robot> parse_urdf(const std::string& text, const std::string& path) {
+  return UrdfReader(text, path).read();
+}
 
 std::shared_ptr<const Robot> load_urdf(const std::string& path) {
   std::error_code error;

@@ -37,6 +37,7 @@ TEST_CASE("the six-axis robot: STL in metres, a description that names every lin
   float corner[3];
   std::memcpy(corner, file.data() + 84 + 12, sizeof corner);
   CHECK((Vec3(corner[0], corner[1], corner[2]) - 1e-3 * bodies[6].mesh.points[bodies[6].mesh.triangles[0][0]]).norm() < 1e-7);
-  for (const auto& body : bodies) CHECK_THAT(six_axis::urdf(), Contains("package://tendril_six_axis/meshes/" + std::string(body.link) + ".stl"));
+  for (const auto& body : bodies)
+    CHECK_THAT(six_axis::urdf(), Contains("package://tendril_six_axis/meshes/" + std::string(body.link) + ".stl"));
   CHECK_THAT(six_axis::package_xml(), Contains("<name>tendril_six_axis</name>"));
 }

@@ -42,7 +42,9 @@ double gap_of_boxes(const Vec3& half_a, const Frame& a, const Vec3& half_b, cons
       if (const Vec3 c = ra.col(i).cross(rb.col(j)); c.norm() > 1e-6) axes.push_back(c.normalized());
   }
   double gap = -1e300;
-  for (const Vec3& n : axes) gap = std::max(gap, std::abs(n.dot(b.at - a.at)) - (ra.transpose() * n).cwiseAbs().dot(half_a) - (rb.transpose() * n).cwiseAbs().dot(half_b));
+  for (const Vec3& n : axes)
+    gap = std::max(gap, std::abs(n.dot(b.at - a.at)) - (ra.transpose() * n).cwiseAbs().dot(half_a) -
+                            (rb.transpose() * n).cwiseAbs().dot(half_b));
   return gap;
 }
 
@@ -53,7 +55,8 @@ TEST_CASE("collision: boxes as solids and as meshes, by the separating axes", "[
   for (unsigned seed = 1; seed <= 400; ++seed) {
     CAPTURE(seed);
     Random random(seed);
-    const Vec3 half_a(random.in(0.1, 1), random.in(0.1, 1), random.in(0.1, 1)), half_b(random.in(0.1, 1), random.in(0.1, 1), random.in(0.1, 1));
+    const Vec3 half_a(random.in(0.1, 1), random.in(0.1, 1), random.in(0.1, 1)),
+        half_b(random.in(0.1, 1), random.in(0.1, 1), random.in(0.1, 1));
     const Frame a{random.point(1), random.rotation()}, b{random.point(1), random.rotation()};
     const double gap = gap_of_boxes(half_a, a, half_b, b);
     if (std::abs(gap) < 1e-6) continue;
@@ -133,7 +136,8 @@ TEST_CASE("collision: meshes against meshes, edge by edge", "[collision]") {
   for (unsigned seed = 1; seed <= 200; ++seed) {
     CAPTURE(seed);
     Random random(seed);
-    const auto a = surface(tendril::test::triangle_soup(6, 0.7, random)), b = surface(tendril::test::triangle_soup(6, 0.7, random));
+    const auto a = surface(tendril::test::triangle_soup(6, 0.7, random)),
+               b = surface(tendril::test::triangle_soup(6, 0.7, random));
     const Frame at_a{random.point(0.3), random.rotation()}, at_b{random.point(0.3), random.rotation()};
     const bool expected = triangles_touch(a->mesh(), at_a, b->tree(), at_b) || triangles_touch(b->mesh(), at_b, a->tree(), at_a);
     CollisionBodies bodies;
@@ -169,7 +173,8 @@ TEST_CASE("collision: a body wholly within a watertight mesh touches it, within 
 TEST_CASE("collision: half-spaces", "[collision]") {
   CollisionBodies bodies;
   const int ground = bodies.add(Solid(HalfSpace{})), ceiling = bodies.add(Solid(HalfSpace{}));
-  const int box = bodies.add(Solid(Box{{2, 4, 6}})), ball = bodies.add(Solid(Sphere{0.5})), can = bodies.add(Solid(Cylinder{0.5, 2}));
+  const int box = bodies.add(Solid(Box{{2, 4, 6}})), ball = bodies.add(Solid(Sphere{0.5})),
+            can = bodies.add(Solid(Cylinder{0.5, 2}));
   const int mesh = bodies.add(surface(box_mesh({1, 2, 3}, 4)));
   const double s = std::sqrt(0.5);
   const Frame tilted{{0, 0, 0}, exp_rotation({0.7853981633974483, 0, 0})};

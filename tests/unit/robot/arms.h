@@ -17,7 +17,8 @@ inline std::shared_ptr<const Robot> arm(const ArmShape& s = {}) {
   const Vec3 axis[] = {Vec3::UnitZ(), Vec3::UnitY(), Vec3::UnitY(), Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitX()};
   std::vector<Joint> joints;
   for (int k = 0; k < 6; ++k)
-    joints.push_back({"joint_" + std::to_string(k + 1), JointKind::revolute, k, {at[k], Quat::Identity()}, axis[k], -s.limit, s.limit});
+    joints.push_back(
+        {"joint_" + std::to_string(k + 1), JointKind::revolute, k, {at[k], Quat::Identity()}, axis[k], -s.limit, s.limit});
   joints.push_back({"flange", JointKind::fixed, 6, {{0.1, 0, 0}, exp_rotation({0, 1.3, 0})}});
   return std::make_shared<const Robot>("arm", named_links(8), joints);
 }
@@ -38,7 +39,8 @@ inline std::shared_ptr<const Robot> random_arm(Random& random) {
     joint.origin = {before.conjugate() * joint.origin.at, before.conjugate() * joint.origin.rotation * turn};
     joint.axis = turn.conjugate() * joint.axis;
     if (random.below(2)) joint.axis = -joint.axis;
-    if (joint.kind != JointKind::fixed) joint.origin.rotation = joint.origin.rotation * exp_rotation(random.in(-3, 3) * joint.axis);
+    if (joint.kind != JointKind::fixed)
+      joint.origin.rotation = joint.origin.rotation * exp_rotation(random.in(-3, 3) * joint.axis);
     before = turn;
     joint.origin.rotation.normalize();
   }

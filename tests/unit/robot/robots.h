@@ -64,7 +64,8 @@ inline Robot random_tree(int count, Random& random) {
     joint.lower = -4;
     joint.upper = 4;
     const int other = k > 0 ? random.below(k) : 0;
-    if (k > 0 && random.below(4) == 0 && joint.kind != JointKind::fixed && joints[other].kind != JointKind::fixed && joints[other].mimics == -1) {
+    if (k > 0 && random.below(4) == 0 && joint.kind != JointKind::fixed && joints[other].kind != JointKind::fixed &&
+        joints[other].mimics == -1) {
       joint.mimics = other;
       joint.factor = random.in(-2, 2);
       joint.shift = random.in(-1, 1);

@@ -24,7 +24,8 @@ bool holds(const std::vector<std::vector<double>>& list, const std::vector<doubl
   return std::any_of(list.begin(), list.end(), [&](const auto& other) { return same_turned(other, q, tolerance); });
 }
 
-void check_solutions(const Robot& robot, const InverseKinematics& inverse, const Frame& target, const InverseResult& result, bool limits = true) {
+void check_solutions(const Robot& robot, const InverseKinematics& inverse, const Frame& target, const InverseResult& result,
+                     bool limits = true) {
   for (const auto& q : result.solutions) {
     CHECK(inverse.residual(q, target) < 1e-9);
     if (limits) CHECK(robot.within_limits(q));
@@ -170,7 +171,8 @@ TEST_CASE("beyond the limits: told, and given without limits", "[robot]") {
   const Frame target = robot->link_frame(robot->tip(), q);
   const InverseResult limited = inverse.solve(target);
   CHECK(limited.status == Status::infeasible);
-  CHECK_THAT(limited.message, Contains("beyond the joint limits in every way") && Contains("'joint_2' at 0.6, limits -0.5 ... 0.5"));
+  CHECK_THAT(limited.message,
+             Contains("beyond the joint limits in every way") && Contains("'joint_2' at 0.6, limits -0.5 ... 0.5"));
   const InverseResult free = inverse.solve(target, {.limits = false});
   CHECK(free.status == Status::solved);
   CHECK(holds(free.solutions, q, 1e-9));
@@ -222,7 +224,9 @@ TEST_CASE("singular poses: solved, with what is free", "[robot]") {
 }
 
 TEST_CASE("arms of other kinds are told why they are solved numerically", "[robot]") {
-  const auto of = [](const std::shared_ptr<const Robot>& robot) { return InverseKinematics(robot, robot->tip()).why_not_closed_form(); };
+  const auto of = [](const std::shared_ptr<const Robot>& robot) {
+    return InverseKinematics(robot, robot->tip()).why_not_closed_form();
+  };
   CHECK(of(arm()).empty());
   CHECK_THAT(of(std::make_shared<const Robot>(planar_arm({1, 1}))), Contains("2 joints move 'link_3', not six"));
   const auto changed = [&](auto change) {
@@ -274,7 +278,11 @@ TEST_CASE("numeric: shifts, redundant and short arms, and what is not to be foun
   // Eight joints: some of infinitely many.
   std::vector<Joint> snake;
   for (int k = 0; k < 8; ++k)
-    snake.push_back({"j" + std::to_string(k), JointKind::continuous, k, {{0, 0, k ? 0.3 : 0}, Quat::Identity()}, k % 2 ? Vec3::UnitX() : Vec3::UnitZ()});
+    snake.push_back({"j" + std::to_string(k),
+                     JointKind::continuous,
+                     k,
+                     {{0, 0, k ? 0.3 : 0}, Quat::Identity()},
+                     k % 2 ? Vec3::UnitX() : Vec3::UnitZ()});
   const auto redundant = std::make_shared<const Robot>("snake", named_links(9), snake);
   const InverseKinematics many(redundant, 8);
   const Frame target = redundant->link_frame(8, random_values(*redundant, random));

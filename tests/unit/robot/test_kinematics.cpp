@@ -29,8 +29,10 @@ Mat4 place_by_matrices(const Robot& robot, int link, const std::vector<double>& 
     if (robot.variables()[v] == followed) value = q[v];
   if (joint.mimics != -1) value = joint.factor * value + joint.shift;
   Mat4 motion = Mat4::Identity();
-  if (joint.kind == JointKind::prismatic) motion.topRightCorner<3, 1>() = value * joint.axis;
-  else if (joint.kind != JointKind::fixed) motion.topLeftCorner<3, 3>() = Eigen::AngleAxisd(value, joint.axis).toRotationMatrix();
+  if (joint.kind == JointKind::prismatic)
+    motion.topRightCorner<3, 1>() = value * joint.axis;
+  else if (joint.kind != JointKind::fixed)
+    motion.topLeftCorner<3, 3>() = Eigen::AngleAxisd(value, joint.axis).toRotationMatrix();
   return place_by_matrices(robot, joint.parent, q) * matrix(joint.origin) * motion;
 }
 
@@ -165,6 +167,8 @@ TEST_CASE("joint values that do not fit are refused", "[robot]") {
   std::vector<Frame> few(2);
   const double q[] = {0.0, 0.0};
   CHECK_THROWS_WITH(arm.link_frames(q, few), Contains("room for 2 frames, expected 4"));
+  CHECK_THROWS_WITH(arm.link_frame(4, q), "robot 'planar': there is no link of the number 4");
+  CHECK_THROWS_WITH(arm.jacobian(-1, q), Contains("no link of the number -1"));
   Jacobian narrow(6, 1);
   CHECK_THROWS_WITH(arm.jacobian(1, q, narrow), Contains("room for 1 columns, expected 2"));
   CHECK_THROWS_WITH(arm.link("link_9"), Contains("no link 'link_9'") && Contains("did you mean"));

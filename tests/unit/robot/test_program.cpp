@@ -43,12 +43,16 @@ void check_grammar(const std::string& text, const std::vector<std::string>& patt
   std::size_t at = 0;
   int repeated = 0;
   for (const std::string& line : lines_of(text)) {
-    const auto fits = [&](std::size_t k) { return k < patterns.size() && std::regex_match(line, std::regex(patterns[k].substr(patterns[k][0] == '*'))); };
+    const auto fits = [&](std::size_t k) {
+      return k < patterns.size() && std::regex_match(line, std::regex(patterns[k].substr(patterns[k][0] == '*')));
+    };
     CAPTURE(line);
     if (at < patterns.size() && patterns[at][0] == '*' && !fits(at) && repeated > 0) ++at, repeated = 0;
     REQUIRE(fits(at));
-    if (patterns[at][0] == '*') ++repeated;
-    else ++at, repeated = 0;
+    if (patterns[at][0] == '*')
+      ++repeated;
+    else
+      ++at, repeated = 0;
   }
   if (at < patterns.size() && repeated > 0) ++at;
   CHECK(at == patterns.size());
@@ -86,7 +90,8 @@ TEST_CASE("axis maps: there and back, FANUC's coupled axis", "[robot]") {
   // KUKA's arm stands stretched to the front at zero.
   const AxisMap kuka = usual_axes(six_axis(), Dialect::krl);
   const std::vector<double> zero = kuka.joints(std::vector<double>(6, 0.0));
-  const Vec3 shoulder = six_axis().link_frame(six_axis().link("link_2"), zero).at, elbow = six_axis().link_frame(six_axis().link("link_3"), zero).at;
+  const Vec3 shoulder = six_axis().link_frame(six_axis().link("link_2"), zero).at,
+             elbow = six_axis().link_frame(six_axis().link("link_3"), zero).at;
   CHECK((elbow - shoulder - Vec3(1.02, 0, 0)).norm() < 1e-12);
   CHECK((six_axis().link_frame(six_axis().link("link_4"), zero).d1() - Vec3::UnitX()).norm() < 1e-12);
   const std::vector<double> turned = kuka.joints(std::vector<double>{0.1, 0, 0, 0, 0, 0});
@@ -118,13 +123,15 @@ TEST_CASE("programs: the grammar of RAPID", "[robot]") {
   const JointPath path = random_path(4, 3);
   check_grammar(write_program(six_axis(), path, {.dialect = Dialect::rapid, .name = "weld", .zone = 0.01}),
                 {"MODULE weld", "*  CONST jointtarget p[0-9]+:=\\[\\[" + six + "\\],\\[9E9(,9E9){5}\\]\\];",
-                 "  CONST zonedata corner:=\\[FALSE,10.0,15.0,15.0,1.50,15.0,1.50\\];", "  PROC main\\(\\)", "    MoveAbsJ p1,v100,fine,tool0;",
-                 "*    MoveAbsJ p[23],v100\\\\T:=[0-9]+\\.[0-9]{3},corner,tool0;", "    MoveAbsJ p4,v100\\\\T:=[0-9]+\\.[0-9]{3},fine,tool0;", "  ENDPROC", "ENDMODULE"});
+                 "  CONST zonedata corner:=\\[FALSE,10.0,15.0,15.0,1.50,15.0,1.50\\];", "  PROC main\\(\\)",
+                 "    MoveAbsJ p1,v100,fine,tool0;", "*    MoveAbsJ p[23],v100\\\\T:=[0-9]+\\.[0-9]{3},corner,tool0;",
+                 "    MoveAbsJ p4,v100\\\\T:=[0-9]+\\.[0-9]{3},fine,tool0;", "  ENDPROC", "ENDMODULE"});
   const std::string plain = write_program(six_axis(), path, {.dialect = Dialect::rapid});
   CHECK(plain.find("corner") == plain.npos);
   // The time is that of the joint that takes longest at the share of speed.
   const JointPath turn = {{0, 0, 0, 0, 0, 0}, {1.1, 0.1, 0, 0, 0, 0}};
-  CHECK_THAT(write_program(six_axis(), turn, {.dialect = Dialect::rapid, .speed = 0.25}), Contains("\\T:=2.292,"));  // 1.1/(0.25 x 110 deg/s)
+  CHECK_THAT(write_program(six_axis(), turn, {.dialect = Dialect::rapid, .speed = 0.25}),
+             Contains("\\T:=2.292,"));  // 1.1/(0.25 x 110 deg/s)
 }
 
 TEST_CASE("programs: the grammar of KRL, URScript, LS and CSV", "[robot]") {
@@ -132,68 +139,104 @@ TEST_CASE("programs: the grammar of KRL, URScript, LS and CSV", "[robot]") {
   std::string axes = "A1 " + number;
   for (int k = 2; k <= 6; ++k) axes += ",A" + std::to_string(k) + " " + number;
   check_grammar(write_program(six_axis(), path, {.dialect = Dialect::krl, .name = "weld", .speed = 0.4}),
-                {"DEF weld\\(\\)", "  BAS\\(#INITMOV,0\\)", "  BAS\\(#VEL_PTP,10\\)", "  PTP \\{" + axes + "\\}", "  BAS\\(#VEL_PTP,40\\)", "*  PTP \\{" + axes + "\\}", "END"});
+                {"DEF weld\\(\\)", "  BAS\\(#INITMOV,0\\)", "  BAS\\(#VEL_PTP,10\\)", "  PTP \\{" + axes + "\\}",
+                 "  BAS\\(#VEL_PTP,40\\)", "*  PTP \\{" + axes + "\\}", "END"});
   const std::string smooth = write_program(six_axis(), path, {.dialect = Dialect::krl, .zone = 0.02});
   CHECK(std::regex_search(smooth, std::regex("\\$APO\\.CPTP=[0-9]+\n  PTP \\{" + axes + "\\} C_PTP\n")));
 
   const std::string list = number + "(?:, " + number + "){5}";
-  check_grammar(write_program(six_axis(), path, {.dialect = Dialect::urscript, .name = "weld", .zone = 0.02}),
-                {"def weld\\(\\):", "  movej\\(\\[" + list + "\\], a=0.5, v=0.2\\)", "*  movej\\(\\[" + list + "\\], t=[0-9.]+, r=0\\.0[0-9]+\\)",
-                 "  movej\\(\\[" + list + "\\], t=[0-9.]+\\)", "end"});
+  check_grammar(
+      write_program(six_axis(), path, {.dialect = Dialect::urscript, .name = "weld", .zone = 0.02}),
+      {"def weld\\(\\):", "  movej\\(\\[" + list + "\\], a=0.5, v=0.2\\)",
+       "*  movej\\(\\[" + list + "\\], t=[0-9.]+, r=0\\.0[0-9]+\\)", "  movej\\(\\[" + list + "\\], t=[0-9.]+\\)", "end"});
 
   const std::string j = "= +" + number + " deg";
   check_grammar(write_program(six_axis(), {path[0], path[1]}, {.dialect = Dialect::ls, .name = "weld", .speed = 0.6}),
-                {"/PROG  WELD", "/ATTR", "*(OWNER|COMMENT|PROG_SIZE|FILE_NAME|VERSION|LINE_COUNT|MEMORY_SIZE|PROTECT)\t+= .*;", "TCD:  STACK_SIZE\t= 0,",
-                 "*      [A-Z_]+\t= [0-9]+[,;]", "DEFAULT_GROUP\t= 1,\\*,\\*,\\*,\\*;", "CONTROL_CODE\t= 00000000 00000000;", "/MN", "   1:J P\\[1\\] 10% FINE    ;",
-                 "   2:J P\\[2\\] 60% FINE    ;", "/POS", "P\\[1\\]\\{", "   GP1:", "\tUF : 0, UT : 1,", "\tJ1" + j + ",\tJ2" + j + ",\tJ3" + j + ",",
-                 "\tJ4" + j + ",\tJ5" + j + ",\tJ6" + j, "\\};", "P\\[2\\]\\{", "   GP1:", "\tUF : 0, UT : 1,", "\tJ1" + j + ",\tJ2" + j + ",\tJ3" + j + ",",
-                 "\tJ4" + j + ",\tJ5" + j + ",\tJ6" + j, "\\};", "/END"});
+                {"/PROG  WELD",
+                 "/ATTR",
+                 "*(OWNER|COMMENT|PROG_SIZE|FILE_NAME|VERSION|LINE_COUNT|MEMORY_SIZE|PROTECT)\t+= .*;",
+                 "TCD:  STACK_SIZE\t= 0,",
+                 "*      [A-Z_]+\t= [0-9]+[,;]",
+                 "DEFAULT_GROUP\t= 1,\\*,\\*,\\*,\\*;",
+                 "CONTROL_CODE\t= 00000000 00000000;",
+                 "/MN",
+                 "   1:J P\\[1\\] 10% FINE    ;",
+                 "   2:J P\\[2\\] 60% FINE    ;",
+                 "/POS",
+                 "P\\[1\\]\\{",
+                 "   GP1:",
+                 "\tUF : 0, UT : 1,",
+                 "\tJ1" + j + ",\tJ2" + j + ",\tJ3" + j + ",",
+                 "\tJ4" + j + ",\tJ5" + j + ",\tJ6" + j,
+                 "\\};",
+                 "P\\[2\\]\\{",
+                 "   GP1:",
+                 "\tUF : 0, UT : 1,",
+                 "\tJ1" + j + ",\tJ2" + j + ",\tJ3" + j + ",",
+                 "\tJ4" + j + ",\tJ5" + j + ",\tJ6" + j,
+                 "\\};",
+                 "/END"});
   CHECK_THAT(write_program(six_axis(), path, {.dialect = Dialect::ls, .zone = 10}), Contains("P[2] 50% CNT99"));
-  check_grammar(write_program(six_axis(), path, {.dialect = Dialect::csv}), {"joint_1 \\(deg\\),.*,joint_6 \\(deg\\)", "*" + six});
+  check_grammar(write_program(six_axis(), path, {.dialect = Dialect::csv}),
+                {"joint_1 \\(deg\\),.*,joint_6 \\(deg\\)", "*" + six});
   // No -0.
-  for (Dialect dialect : all) CHECK(write_program(six_axis(), {{-1e-12, 0, 0, 0, 0, 0}}, {.dialect = dialect}).find("-0.0000") == std::string::npos);
+  for (Dialect dialect : all)
+    CHECK(write_program(six_axis(), {{-1e-12, 0, 0, 0, 0, 0}}, {.dialect = dialect}).find("-0.0000") == std::string::npos);
 }
 
 TEST_CASE("programs written by others", "[robot]") {
-  const auto read = [](const std::string& text, Dialect dialect) { return read_program(six_axis(), text, "job", dialect, AxisMap::same(6)); };
+  const auto read = [](const std::string& text, Dialect dialect) {
+    return read_program(six_axis(), text, "job", dialect, AxisMap::same(6));
+  };
   const auto near = [](const std::vector<double>& q, std::vector<double> expected) {
     for (int k = 0; k < 6; ++k) CHECK(q[k] / deg == Approx(expected[k]).margin(1e-9));
   };
-  JointPath path = read("%%%\n  VERSION:1\n%%%\nMODULE m ! a comment; MoveL p9\n"
-                        "  LOCAL CONST jointtarget home := [[0,-10,20.5,0,30,+1e1],\n    [9E+09,9E9,9E9,9E9,9E9,9E9]];\n"
-                        "  PROC move_it()\n    MoveAbsJ home\\NoEOffs, v1000, z50, tool1\\WObj:=wobj0;\n    TPWrite \"move on; MoveL\";\n"
-                        "    MOVEABSJ [[1,2,3,4,5,6],[9E9,9E9,9E9,9E9,9E9,9E9]]\\NoEOffs,v5,fine,tool0;\n  ENDPROC\n  PERS jointtarget late:=[[6,5,4,3,2,1],[0,0,0,0,0,0]];\n"
-                        "  PROC two() MoveAbsJ \\Conc, late,v5,fine,tool0; ENDPROC\nENDMODULE\n",
-                        Dialect::rapid);
+  JointPath path = read(
+      "%%%\n  VERSION:1\n%%%\nMODULE m ! a comment; MoveL p9\n"
+      "  LOCAL CONST jointtarget home := [[0,-10,20.5,0,30,+1e1],\n    [9E+09,9E9,9E9,9E9,9E9,9E9]];\n"
+      "  PROC move_it()\n    MoveAbsJ home\\NoEOffs, v1000, z50, tool1\\WObj:=wobj0;\n    TPWrite \"move on; MoveL\";\n"
+      "    MOVEABSJ [[1,2,3,4,5,6],[9E9,9E9,9E9,9E9,9E9,9E9]]\\NoEOffs,v5,fine,tool0;\n  ENDPROC\n  PERS jointtarget "
+      "late:=[[6,5,4,3,2,1],[0,0,0,0,0,0]];\n"
+      "  PROC two() MoveAbsJ \\Conc, late,v5,fine,tool0; ENDPROC\nENDMODULE\n",
+      Dialect::rapid);
   REQUIRE(path.size() == 3);
   near(path[0], {0, -10, 20.5, 0, 30, 10});
   near(path[1], {1, 2, 3, 4, 5, 6});
   near(path[2], {6, 5, 4, 3, 2, 1});
 
-  path = read("&ACCESS RVP\nDEF job( )\nDECL E6AXIS first={A1 1.0,A2 2.0,A3 3.0,A4 4.0,A5 5.0,A6 6.0,E1 0.0}\n;FOLD LIN comment\n$VEL_AXIS[1]=50\n"
-              "PTP first\nptp {a2 -9, E1 100} c_ptp ; only the second\nPTP {AXIS: A1 0, A2 1, A3 2, A4 3, A5 4, A6 5} C_PTP\nEND\n",
-              Dialect::krl);
+  path = read(
+      "&ACCESS RVP\nDEF job( )\nDECL E6AXIS first={A1 1.0,A2 2.0,A3 3.0,A4 4.0,A5 5.0,A6 6.0,E1 0.0}\n;FOLD LIN "
+      "comment\n$VEL_AXIS[1]=50\n"
+      "PTP first\nptp {a2 -9, E1 100} c_ptp ; only the second\nPTP {AXIS: A1 0, A2 1, A3 2, A4 3, A5 4, A6 5} C_PTP\nEND\n",
+      Dialect::krl);
   REQUIRE(path.size() == 3);
   near(path[0], {1, 2, 3, 4, 5, 6});
   near(path[1], {1, -9, 3, 4, 5, 6});
   near(path[2], {0, 1, 2, 3, 4, 5});
 
-  path = read("def job():\n  # movel(p[0,0,0,0,0,0])\n  global q1 = [d2r(10), d2r(-20), 0, 0, 0, 3.141592653589793]\n  set_tcp(p[0,0,0,0,0,0])\n  movej(q1, a=1.4, v=1.05)\n"
-              "  movej([0,0,0,0,0,d2r(90)],1.4,1.05,0,0)\nend\n",
-              Dialect::urscript);
+  path = read(
+      "def job():\n  # movel(p[0,0,0,0,0,0])\n  global q1 = [d2r(10), d2r(-20), 0, 0, 0, 3.141592653589793]\n  "
+      "set_tcp(p[0,0,0,0,0,0])\n  movej(q1, a=1.4, v=1.05)\n"
+      "  movej([0,0,0,0,0,d2r(90)],1.4,1.05,0,0)\nend\n",
+      Dialect::urscript);
   REQUIRE(path.size() == 2);
   near(path[0], {10, -20, 0, 0, 0, 180});
   near(path[1], {0, 0, 0, 0, 0, 90});
 
-  path = read("/PROG  JOB\n/ATTR\nCOMMENT = \"x\";\n/MN\n   1:  !go home ;\n   2:J P[7:home] 100% FINE    ;\n   3:  CALL GRIP    ;\n   4:J P[2] 5% CNT100 ACC80   ;\n/POS\n"
-              "P[2]{\n   GP1:\n\tUF : 0, UT : 2,\n\tJ1=   1.000 deg,\tJ2=   2.000 deg,\tJ3=   3.000 deg,\n\tJ4=   4.000 deg,\tJ5=   5.000 deg,\tJ6=   6.000 deg\n};\n"
-              "P[7:\"home\"]{\n   GP1:\n\tUF : 0, UT : 2,\n\tJ1 = -1.000 deg,\tJ2 = -2.000 deg,\tJ3 = -3.000 deg,\n\tJ4 = -4.000 deg,\tJ5 = -5.000 deg,\tJ6 = -6.000 deg\n};\n/END\n",
-              Dialect::ls);
+  path = read(
+      "/PROG  JOB\n/ATTR\nCOMMENT = \"x\";\n/MN\n   1:  !go home ;\n   2:J P[7:home] 100% FINE    ;\n   3:  CALL GRIP    ;\n   "
+      "4:J P[2] 5% CNT100 ACC80   ;\n/POS\n"
+      "P[2]{\n   GP1:\n\tUF : 0, UT : 2,\n\tJ1=   1.000 deg,\tJ2=   2.000 deg,\tJ3=   3.000 deg,\n\tJ4=   4.000 deg,\tJ5=   "
+      "5.000 deg,\tJ6=   6.000 deg\n};\n"
+      "P[7:\"home\"]{\n   GP1:\n\tUF : 0, UT : 2,\n\tJ1 = -1.000 deg,\tJ2 = -2.000 deg,\tJ3 = -3.000 deg,\n\tJ4 = -4.000 "
+      "deg,\tJ5 = -5.000 deg,\tJ6 = -6.000 deg\n};\n/END\n",
+      Dialect::ls);
   REQUIRE(path.size() == 2);
   near(path[0], {-1, -2, -3, -4, -5, -6});
   near(path[1], {1, 2, 3, 4, 5, 6});
 
-  for (const char* text : {"j1,j2,j3,j4,j5,j6\n1,2,3,4,5,6\n", "# a comment\n1; 2; 3; 4; 5; 6\n", "1\t2\t3\t4\t5\t6", "  1 2  3 4 5   6  \r\n"}) {
+  for (const char* text :
+       {"j1,j2,j3,j4,j5,j6\n1,2,3,4,5,6\n", "# a comment\n1; 2; 3; 4; 5; 6\n", "1\t2\t3\t4\t5\t6", "  1 2  3 4 5   6  \r\n"}) {
     path = read(text, Dialect::csv);
     REQUIRE(path.size() == 1);
     near(path[0], {1, 2, 3, 4, 5, 6});
@@ -205,7 +248,8 @@ TEST_CASE("programs from files; KRL's positions may stand in the file beside", "
   std::string pattern = (std::filesystem::temp_directory_path() / "tendril_program_XXXXXX").string();
   REQUIRE(::mkdtemp(pattern.data()) != nullptr);
   write_file(pattern + "/job.src", "DEF job()\nPTP xp1\nEND\n");
-  CHECK_THROWS_WITH(read_program_file(six_axis(), pattern + "/job.src", Dialect::krl, AxisMap::same(6)), Contains("'xp1' is not declared"));
+  CHECK_THROWS_WITH(read_program_file(six_axis(), pattern + "/job.src", Dialect::krl, AxisMap::same(6)),
+                    Contains("'xp1' is not declared"));
   write_file(pattern + "/job.dat", "DEFDAT job\nDECL AXIS XP1={A1 1,A2 2,A3 3,A4 4,A5 5,A6 6}\nENDDAT\n");
   CHECK(read_program_file(six_axis(), pattern + "/job.src", Dialect::krl, AxisMap::same(6))[0][1] == Approx(2 * deg));
   const JointPath path = random_path(5, 9);
@@ -218,7 +262,8 @@ TEST_CASE("programs: what would be lost or cannot be is refused with its line", 
   const auto refused = [](Dialect dialect, const std::string& text, const std::string& line, const std::string& why) {
     CAPTURE(text);
     CHECK_THROWS_AS(read_program(six_axis(), text, "job", dialect, {}), UsageError);
-    CHECK_THROWS_WITH(read_program(six_axis(), text, "job", dialect, {}), Contains("program 'job" + line + "': ") && Contains(why));
+    CHECK_THROWS_WITH(read_program(six_axis(), text, "job", dialect, {}),
+                      Contains("program 'job" + line + "': ") && Contains(why));
   };
   refused(Dialect::rapid, "", "", "no moves");
   refused(Dialect::rapid, "MODULE m\nPROC main()\n MoveAbsJ p1,v5,fine,tool0;", ":3", "'p1' is not declared");
@@ -260,7 +305,8 @@ TEST_CASE("programs: what would be lost or cannot be is refused with its line", 
   unwritten(good, {.axes = AxisMap::same(5)}, "got 5 signs");
   const Robot planar = planar_arm({1, 1});
   CHECK_THROWS_WITH(write_program(planar, {{0, 0}}, {}), Contains("only csv"));
-  CHECK(write_program(planar, {{0, units::pi / 2}}, {.dialect = Dialect::csv}) == "joint_1 (deg),joint_2 (deg)\n0.0000000,90.0000000\n");
+  CHECK(write_program(planar, {{0, units::pi / 2}}, {.dialect = Dialect::csv}) ==
+        "joint_1 (deg),joint_2 (deg)\n0.0000000,90.0000000\n");
   CHECK_THROWS_WITH(write_program(*arm(), {good[0], good[0]}, {}), Contains("velocity of joint 'joint_1' is not stated"));
   CHECK_THROWS_WITH(read_program_file(six_axis(), "none.src", Dialect::krl, {}), Contains("none.src"));
   CHECK(dialect_of_file("a/B.MOD") == Dialect::rapid);

@@ -104,7 +104,8 @@ TEST_CASE("surroundings: moving links are checked, the base is not", "[robot]") 
   CHECK(found[0].link == 4);
   CHECK(found[0].obstacle == 1);
   CHECK(found[0].other_link == -1);
-  CHECK_THROWS_WITH(free.add_obstacle(Solid(Sphere{1}), {{std::nan(""), 0, 0}, Quat::Identity()}), Contains("pose is not finite"));
+  CHECK_THROWS_WITH(free.add_obstacle(Solid(Sphere{1}), {{std::nan(""), 0, 0}, Quat::Identity()}),
+                    Contains("pose is not finite"));
 }
 
 TEST_CASE("a real robot: clear in its zero position, touching itself when folded", "[robot][real]") {
@@ -115,7 +116,8 @@ TEST_CASE("a real robot: clear in its zero position, touching itself when folded
   }
   const auto robot = load_urdf(file);
   const RobotCollision collision(robot);
-  for (const LinkPair& pair : collision.pairs()) INFO(robot->links()[pair.a].name << " " << robot->links()[pair.b].name << " " << name_of(pair.kind));
+  for (const LinkPair& pair : collision.pairs())
+    INFO(robot->links()[pair.a].name << " " << robot->links()[pair.b].name << " " << name_of(pair.kind));
   CHECK(collision.contacts(std::vector<double>(6, 0.0)).empty());
   CHECK(collision.contacts(std::vector<double>{0, 1.4, 1.1, 0, 2, 0}).size() > 0);
 }

@@ -64,7 +64,9 @@ TEST_CASE("urdf: joints, limits, axes, mimicry and order", "[robot]") {
   CHECK(slide.upper == 1.5);
   CHECK(std::isinf(slide.velocity));
   // rpy: about the fixed x, then y, then z.
-  const Mat3 expected = (Eigen::AngleAxisd(0.3, Vec3::UnitZ()) * Eigen::AngleAxisd(0.2, Vec3::UnitY()) * Eigen::AngleAxisd(0.1, Vec3::UnitX())).toRotationMatrix();
+  const Mat3 expected =
+      (Eigen::AngleAxisd(0.3, Vec3::UnitZ()) * Eigen::AngleAxisd(0.2, Vec3::UnitY()) * Eigen::AngleAxisd(0.1, Vec3::UnitX()))
+          .toRotationMatrix();
   CHECK((slide.origin.rotation.toRotationMatrix() - expected).norm() < 1e-15);
   CHECK(slide.origin.at == Vec3(1, 2, 3));
   CHECK(robot->joints()[1].axis == Vec3::UnitZ());
@@ -119,11 +121,13 @@ TEST_CASE("urdf: every mistake is told with file and line", "[robot]") {
   refused(joint("<parent link='a'/>" + limit), ":4", "has no <child>");
   refused(joint("<parent link='a'/>\n<child link='bb'/>" + limit), ":6", "unknown link 'bb'; did you mean 'b'?");
   refused(joint("<parent link='a'/><child link='a'/>" + limit), ":4", "joins 'a' to itself");
-  refused(joint(ends + "\n<limit lower='nan' upper='1' velocity='1'/>"), ":6", "'lower' of <limit> is 'nan', expected a finite number");
+  refused(joint(ends + "\n<limit lower='nan' upper='1' velocity='1'/>"), ":6",
+          "'lower' of <limit> is 'nan', expected a finite number");
   refused(joint(ends + "\n<limit lower='-inf' upper='1' velocity='1'/>"), ":6", "'lower'");
   refused(joint(ends + "\n<limit lower='1rad' upper='1' velocity='1'/>"), ":6", "'1rad'");
   refused(joint(ends + "\n<limit lower='' upper='1' velocity='1'/>"), ":6", "'lower'");
-  refused(joint(ends + "\n<limit lower='2' upper='1' velocity='1'/>"), ":6", "lower limit 2 of joint 'j' lies above the upper one, 1");
+  refused(joint(ends + "\n<limit lower='2' upper='1' velocity='1'/>"), ":6",
+          "lower limit 2 of joint 'j' lies above the upper one, 1");
   refused(joint(ends + "\n<limit lower='0' upper='1' velocity='-1'/>"), ":6", "less than 0");
   refused(joint(ends + limit + "\n<axis xyz='0 0 0'/>"), ":6", "axis of joint 'j' is zero");
   refused(joint(ends + limit + "\n<axis xyz='0 0'/>"), ":6", "three numbers");
@@ -133,12 +137,21 @@ TEST_CASE("urdf: every mistake is told with file and line", "[robot]") {
   refused(joint(ends + limit + "\n<mimic joint='k'/>"), ":6", "unknown joint 'k'");
   refused(joint(ends + limit + "\n<mimic joint='j'/>"), "", "mimic another joint");
   refused(two_links + "</robot>", ":3", "no joint carries 'a' nor 'b'");
-  refused(two_links + "<joint name='j' type='fixed'>" + ends + "</joint>\n<joint name='j' type='fixed'>" + ends + "</joint></robot>", ":5", "there twice");
-  refused(two_links + "<joint name='j' type='fixed'>" + ends + "</joint>\n<joint name='k' type='fixed'>" + ends + "</joint></robot>", ":5", "which 'j' carries already");
-  refused(two_links + "<joint name='j' type='fixed'>" + ends + "</joint>\n<joint name='k' type='fixed'><parent link='b'/><child link='a'/></joint></robot>", ":4", "circle");
-  refused("<robot><link name='o'/><link name='a'/><link name='b'/>\n<joint name='j' type='fixed'>" + ends + "</joint><joint name='k' type='fixed'><parent link='b'/><child link='a'/></joint></robot>",
+  refused(
+      two_links + "<joint name='j' type='fixed'>" + ends + "</joint>\n<joint name='j' type='fixed'>" + ends + "</joint></robot>",
+      ":5", "there twice");
+  refused(
+      two_links + "<joint name='j' type='fixed'>" + ends + "</joint>\n<joint name='k' type='fixed'>" + ends + "</joint></robot>",
+      ":5", "which 'j' carries already");
+  refused(two_links + "<joint name='j' type='fixed'>" + ends +
+              "</joint>\n<joint name='k' type='fixed'><parent link='b'/><child link='a'/></joint></robot>",
+          ":4", "circle");
+  refused("<robot><link name='o'/><link name='a'/><link name='b'/>\n<joint name='j' type='fixed'>" + ends +
+              "</joint><joint name='k' type='fixed'><parent link='b'/><child link='a'/></joint></robot>",
           ":2", "circle: 'b' does not hang on the base 'o'");
-  const auto body = [](const std::string& inner) { return "<robot><link name='a'>\n<visual>" + inner + "</visual></link></robot>"; };
+  const auto body = [](const std::string& inner) {
+    return "<robot><link name='a'>\n<visual>" + inner + "</visual></link></robot>";
+  };
   refused(body(""), ":2", "<visual> has no <geometry>");
   refused(body("<geometry/>"), ":2", "<geometry> is empty");
   refused(body("<geometry><torus/></geometry>"), ":2", "<torus> is not known");
@@ -163,8 +176,9 @@ TEST_CASE("urdf: thousands of nested elements and of links", "[robot]") {
   CHECK_THROWS_WITH(parsed(deep + closing + "</robot>"), Contains("no links"));
   std::string chain = "<robot name='r'><link name='l0'/>";
   for (int i = 1; i < 2000; ++i)
-    chain += "<link name='l" + std::to_string(i) + "'/><joint name='j" + std::to_string(i) + "' type='continuous'><parent link='l" + std::to_string(i - 1) +
-             "'/><child link='l" + std::to_string(i) + "'/><origin xyz='0 0 1'/></joint>";
+    chain += "<link name='l" + std::to_string(i) + "'/><joint name='j" + std::to_string(i) +
+             "' type='continuous'><parent link='l" + std::to_string(i - 1) + "'/><child link='l" + std::to_string(i) +
+             "'/><origin xyz='0 0 1'/></joint>";
   const auto robot = parsed(chain + "</robot>");
   CHECK(robot->size() == 1999);
   CHECK(robot->link_frame(robot->tip(), std::vector<double>(1999, 0.0)).at.z() == 1999);
@@ -184,11 +198,14 @@ TEST_CASE("urdf: meshes lie beside the file, in packages, in packages without th
   CHECK(resolve_mesh_path("beside.stl", file) == at("pack/urdf/beside.stl"));
   CHECK(resolve_mesh_path("../meshes/arm/a.stl", file) == at("pack/meshes/arm/a.stl"));
   CHECK(resolve_mesh_path("file://" + at("pack/urdf/beside.stl"), file) == at("pack/urdf/beside.stl"));
-  CHECK_THROWS_WITH(resolve_mesh_path("package://the_pack/meshes/arm/b.stl", file), Contains("no file 'meshes/arm/b.stl' in the package 'the_pack'"));
+  CHECK_THROWS_WITH(resolve_mesh_path("package://the_pack/meshes/arm/b.stl", file),
+                    Contains("no file 'meshes/arm/b.stl' in the package 'the_pack'"));
   CHECK_THROWS_WITH(resolve_mesh_path("package://pack/else/a.stl", file), Contains("no file"));
 
-  write_file(file, "<robot name='r'><link name='a'><visual><geometry><mesh filename='beside.stl' scale='0.001 0.001 -0.001'/></geometry></visual>"
-                   "<collision><geometry><mesh filename='beside.stl'/></geometry></collision></link></robot>");
+  write_file(file,
+             "<robot name='r'><link name='a'><visual><geometry><mesh filename='beside.stl' scale='0.001 0.001 "
+             "-0.001'/></geometry></visual>"
+             "<collision><geometry><mesh filename='beside.stl'/></geometry></collision></link></robot>");
   const auto robot = load_urdf(file);
   const auto& small = std::get<0>(robot->links()[0].visual[0].shape)->surface()->mesh();
   CHECK(small.volume() == Approx(1e-9 / 6).epsilon(1e-6));  // mirrored, and still outside out
@@ -210,7 +227,8 @@ TEST_CASE("a package's name", "[robot]") {
 TEST_CASE("builtin robots: unknown and missing ones", "[robot]") {
   CHECK_THROWS_WITH(load_robot("builtin:six_axes"), Contains("did you mean 'six_axis'"));
   ::setenv("TENDRIL_ASSETS", "/no/such/folder", 1);
-  CHECK_THROWS_WITH(load_robot("builtin:six_axis"), Contains("/no/such/folder/six_axis/six_axis.urdf") && Contains("TENDRIL_ASSETS"));
+  CHECK_THROWS_WITH(load_robot("builtin:six_axis"),
+                    Contains("/no/such/folder/six_axis/six_axis.urdf") && Contains("TENDRIL_ASSETS"));
   ::unsetenv("TENDRIL_ASSETS");
 }
 
