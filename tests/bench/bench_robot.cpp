@@ -1,7 +1,12 @@
-// Kinematics of a six-axis arm: all link frames, the Jacobian of the flange, and the joint values for a place of it.
+// Kinematics of a six-axis arm: all link frames, the Jacobian of the flange, the joint values for a place of it, and
+// whether the links of builtin:six_axis touch each other.
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
+
 #include "robot/inverse.h"
+#include "robot/load_robot.h"
+#include "robot/robot_collision.h"
 
 using namespace tendril;
 
@@ -69,5 +74,17 @@ void robot_inverse(benchmark::State& state) {
   state.counters["solutions"] = static_cast<double>(found) / static_cast<double>(state.iterations());
 }
 BENCHMARK(robot_inverse);
+
+void robot_collides(benchmark::State& state) {
+  const auto robot = load_robot("builtin:six_axis");
+  const RobotCollision collision(robot);
+  auto q = values();
+  for (auto& one : q)
+    for (int k = 0; k < 6; ++k) one[k] = std::clamp(one[k], robot->lower()[k], robot->upper()[k]);
+  int i = 0, touching = 0;
+  for (auto _ : state) touching += collision.any(q[++i % poses]);
+  benchmark::DoNotOptimize(touching);
+}
+BENCHMARK(robot_collides);
 
 }  // namespace
