@@ -81,7 +81,10 @@ Pushed reaches(lua_State* L, RobotValue& value, const Frame& target, const Optio
 }
 
 const RobotCollision& collision_of(lua_State* L, RobotValue& value) {
-  if (!value.collision) value.collision = std::make_shared<const RobotCollision>(value.robot, PairOptions{}, run_context(L));
+  if (value.collision) return *value.collision;
+  auto made = std::make_shared<const RobotCollision>(value.robot, PairOptions{}, run_context(L));
+  if (!made->decided()) throw UsageError("robot: the search for pairs of links that always or never touch was interrupted");
+  value.collision = std::move(made);
   return *value.collision;
 }
 

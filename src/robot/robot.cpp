@@ -1,5 +1,6 @@
 #include "robot/robot.h"
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -178,7 +179,9 @@ int Robot::joint(const std::string& name) const {
 
 std::vector<int> Robot::chain(int link) const {
   std::vector<int> links;
-  for (int at = link; at >= 0; at = parent(at)) links.insert(links.begin(), at);
+  check_link(link);
+  for (int at = link; at >= 0; at = parent(at)) links.push_back(at);
+  std::reverse(links.begin(), links.end());
   return links;
 }
 

@@ -89,7 +89,8 @@ void RobotCollision::sample_pairs(const PairOptions& options, const RunContext& 
     for (Open& one : open) (touch(one.pair->a, one.pair->b, frames) ? one.touched : one.clear) = true;
     std::erase_if(open, [](const Open& one) { return one.touched && one.clear; });
   }
-  if (sample < options.samples) return;
+  decided_ = open.empty() || sample == options.samples;
+  if (!decided_) return;
   for (const Open& one : open) {
     if (one.touched)
       one.pair->kind = PairKind::always;

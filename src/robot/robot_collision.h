@@ -48,6 +48,7 @@ class RobotCollision {
 
   const Robot& robot() const { return *robot_; }
   const std::vector<LinkPair>& pairs() const { return pairs_; }
+  bool decided() const { return decided_; }  ///< false: stopped before all samples were looked at
 
   /// In the axes of the robot's base. Returns the obstacle's number, counted from 0; throws UsageError as CollisionBodies::add.
   int add_obstacle(const CollisionShape& shape, const Frame& pose);
@@ -80,6 +81,7 @@ class RobotCollision {
   std::vector<std::vector<Body>> links_;  ///< the bodies of each link
   std::vector<int> group_;                ///< of each link: the first link that it is rigidly joined to
   std::vector<LinkPair> pairs_;
+  bool decided_ = true;
   std::vector<Obstacle> obstacles_;
 };
 

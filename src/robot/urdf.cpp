@@ -62,6 +62,7 @@ class UrdfReader {
   std::vector<Node> link_nodes_;
   std::map<std::string, int> link_number_;
   std::vector<FileJoint> joints_;
+  std::set<std::string> joint_names_;
   std::vector<int> order_;                                         ///< of the file's joints, as collected
   std::map<std::string, std::shared_ptr<const LinkMesh>> meshes_;  ///< by file and scale
 };
@@ -211,8 +212,7 @@ void UrdfReader::read_joint(Node node) {
   Joint& joint = read.joint;
   joint.name = attribute(node, "name");
   if (joint.name.empty()) fail(node, "a joint without a name");
-  for (const FileJoint& other : joints_)
-    if (other.joint.name == joint.name) fail(node, "the joint '" + joint.name + "' is there twice");
+  if (!joint_names_.insert(joint.name).second) fail(node, "the joint '" + joint.name + "' is there twice");
   const std::string kind = attribute(node, "type");
   bool known = false;
   for (JointKind each : {JointKind::fixed, JointKind::revolute, JointKind::continuous, JointKind::prismatic})
@@ -244,9 +244,8 @@ void UrdfReader::read_joint(Node node) {
 }
 
 void UrdfReader::check_names() const {
-  std::vector<std::string> names, joint_names;
+  std::vector<std::string> names;
   for (const Link& link : links_) names.push_back(link.name);
-  for (const FileJoint& joint : joints_) joint_names.push_back(joint.joint.name);
   std::map<std::string, std::string> carried;  // link: joint
   for (const FileJoint& read : joints_) {
     const std::string who = "the joint '" + read.joint.name + "' ";
@@ -258,8 +257,9 @@ void UrdfReader::check_names() const {
     if (read.parent == read.child) fail(read.node, who + "joins '" + read.child + "' to itself");
     const auto [at, is_new] = carried.emplace(read.child, read.joint.name);
     if (!is_new) fail(read.node, who + "carries '" + read.child + "', which '" + at->second + "' carries already");
-    if (!read.mimics.empty() && std::find(joint_names.begin(), joint_names.end(), read.mimics) == joint_names.end())
-      fail(read.node.child("mimic"), who + "mimics the unknown joint " + unknown_name(read.mimics, "joints", joint_names));
+    if (!read.mimics.empty() && !joint_names_.count(read.mimics))
+      fail(read.node.child("mimic"), who + "mimics the unknown joint " +
+                                         unknown_name(read.mimics, "joints", {joint_names_.begin(), joint_names_.end()}));
   }
 }
 
@@ -306,12 +306,10 @@ void UrdfReader::collect(int first, std::vector<Link>& links, std::vector<Joint>
 }
 
 void UrdfReader::resolve_mimicry(std::vector<Joint>& joints) const {
-  for (std::size_t k = 0; k < joints.size(); ++k) {
-    const FileJoint& read = joints_[order_[k]];
-    if (read.mimics.empty()) continue;
-    for (std::size_t other = 0; other < joints.size(); ++other)
-      if (joints[other].name == read.mimics) joints[k].mimics = static_cast<int>(other);
-  }
+  std::map<std::string, int> number;
+  for (std::size_t k = 0; k < joints.size(); ++k) number[joints[k].name] = static_cast<int>(k);
+  for (std::size_t k = 0; k < joints.size(); ++k)
+    if (const std::string& followed = joints_[order_[k]].mimics; !followed.empty()) joints[k].mimics = number.at(followed);
 }
 
 std::shared_ptr<const Robot> UrdfReader::read() {

@@ -14,8 +14,8 @@ namespace tendril {
 /// stated. Mesh files are in metres times their `scale`, whatever unit they say themselves; they are looked for now
 /// (package_path.h) and read when first used.
 ///
-/// Throws UsageError naming the file and, wherever there is one, the line: a file that is missing or no XML, unknown or
-/// missing elements and names, links given twice, carried twice or in a circle, several bases, numbers that are none or
+/// Throws UsageError naming the file and, wherever there is one, the line: a file that is missing or no XML, missing
+/// elements, unknown names, links given twice, carried twice or in a circle, several bases, numbers that are none or
 /// not finite, limits that are missing or in the wrong order, joints of other kinds, missing mesh files.
 std::shared_ptr<const Robot> load_urdf(const std::string& path);
 

@@ -169,6 +169,7 @@ TEST_CASE("joint values that do not fit are refused", "[robot]") {
   CHECK_THROWS_WITH(arm.link_frames(q, few), Contains("room for 2 frames, expected 4"));
   CHECK_THROWS_WITH(arm.link_frame(4, q), "robot 'planar': there is no link of the number 4");
   CHECK_THROWS_WITH(arm.jacobian(-1, q), Contains("no link of the number -1"));
+  CHECK_THROWS_WITH(arm.chain(4), Contains("no link of the number 4"));
   Jacobian narrow(6, 1);
   CHECK_THROWS_WITH(arm.jacobian(1, q, narrow), Contains("room for 1 columns, expected 2"));
   CHECK_THROWS_WITH(arm.link("link_9"), Contains("no link 'link_9'") && Contains("did you mean"));

@@ -61,7 +61,10 @@ TEST_CASE("pairs: rigid ones, neighbours, those that always and never touch", "[
   std::atomic<bool> cancel{true};
   RunContext context;
   context.cancel = &cancel;
-  CHECK(kind_of(RobotCollision(barred_arm(0.3), {}, context), 1, 3) == PairKind::checked);  // undecided
+  const RobotCollision stopped(barred_arm(0.3), {}, context);
+  CHECK(kind_of(stopped, 1, 3) == PairKind::checked);
+  CHECK_FALSE(stopped.decided());
+  CHECK(narrow.decided());
 }
 
 TEST_CASE("a folded arm touches itself where plane geometry says", "[robot]") {
