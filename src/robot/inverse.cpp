@@ -15,6 +15,7 @@ namespace {
 constexpr double full_turn = 2 * units::pi;
 constexpr double accepted = 1e-9;          // m and rad
 constexpr double limit_tolerance = 1e-11;  // rad: rounding; what lies beyond by less is put on the limit
+constexpr std::size_t most_of_one = 1000;  // solutions that differ by whole turns from one
 constexpr int most_turns = 6;              // of a joint whose limits are taken for limits of turns
 
 // The zero position's axes of the joints on the way to a link.
@@ -171,26 +172,39 @@ bool InverseKinematics::polish(const Frame& target, std::vector<double>& q) cons
   return error < accepted;
 }
 
+// Where one joint may stand, whole turns apart, the place nearest to `near` first.
+std::vector<double> InverseKinematics::places_of(int v, double at, double near, const InverseOptions& options) const {
+  if (!options.limits) return {at};
+  const double lower = robot_->lower()[v], upper = robot_->upper()[v];
+  const bool turning = turns(robot_->variable(v));
+  if (turning && at < lower - limit_tolerance) at += full_turn * std::ceil((lower - limit_tolerance - at) / full_turn);
+  if (turning && at > upper + limit_tolerance) at -= full_turn * std::ceil((at - upper - limit_tolerance) / full_turn);
+  if (!(at >= lower - limit_tolerance && at <= upper + limit_tolerance)) return {};
+  std::vector<double> places = {at};
+  if (turning && moving_.size() <= 6 && upper - lower < most_turns * full_turn) {
+    for (double other = at - full_turn; other >= lower - limit_tolerance; other -= full_turn) places.push_back(other);
+    for (double other = at + full_turn; other <= upper + limit_tolerance; other += full_turn) places.push_back(other);
+  }
+  std::sort(places.begin(), places.end(), [&](double a, double b) { return std::abs(a - near) < std::abs(b - near); });
+  if (!options.turns) places.resize(1, 0.0);
+  for (double& place : places) place = std::clamp(place, lower, upper);
+  return places;
+}
+
 void InverseKinematics::add_turns(const std::vector<double>& q, const InverseOptions& options, const std::vector<double>& near,
                                   InverseResult& result) const {
+  const auto same = [&](const std::vector<double>& other) {  // but for whole turns: then it is there with all of its own
+    for (int v : moving_) {
+      const double apart = other[v] - q[v];
+      if (std::abs(turns(robot_->variable(v)) ? std::remainder(apart, full_turn) : apart) > 1e-7) return false;
+    }
+    return true;
+  };
+  if (std::any_of(result.solutions.begin(), result.solutions.end(), same)) return;
   std::vector<std::vector<double>> all = {q};
   for (int v : moving_) {
-    std::vector<double> places;  // of this joint, the one nearest to `near` first
-    const double lower = robot_->lower()[v] - limit_tolerance, upper = robot_->upper()[v] + limit_tolerance;
-    const auto add = [&](double at) { places.push_back(std::clamp(at, robot_->lower()[v], robot_->upper()[v])); };
-    if (!options.limits) {
-      places = {q[v]};
-    } else if (!turns(robot_->variable(v)) || !(upper - lower < most_turns * full_turn)) {
-      double at = q[v];
-      if (turns(robot_->variable(v)) && at < lower) at += full_turn * std::ceil((lower - at) / full_turn);
-      if (turns(robot_->variable(v)) && at > upper) at -= full_turn * std::ceil((at - upper) / full_turn);
-      if (at >= lower && at <= upper) add(at);
-    } else {
-      for (double at = q[v] - full_turn * std::floor((q[v] - lower) / full_turn); at <= upper; at += full_turn)
-        if (at >= lower) add(at);
-      std::sort(places.begin(), places.end(), [&](double a, double b) { return std::abs(a - near[v]) < std::abs(b - near[v]); });
-      if (!options.turns && places.size() > 1) places.erase(places.begin() + 1, places.end());
-    }
+    std::vector<double> places = places_of(v, q[v], near[v], options);
+    if (all.size() * places.size() > most_of_one) places.resize(1, 0.0);
     std::vector<std::vector<double>> more;
     for (const auto& one : all)
       for (double place : places) {
@@ -199,11 +213,7 @@ void InverseKinematics::add_turns(const std::vector<double>& q, const InverseOpt
       }
     all = std::move(more);
   }
-  for (auto& one : all) {
-    const bool known = std::any_of(result.solutions.begin(), result.solutions.end(),
-                                   [&](const auto& other) { return largest_difference(one, other) < 1e-7; });
-    if (!known) result.solutions.push_back(std::move(one));
-  }
+  result.solutions.insert(result.solutions.end(), all.begin(), all.end());
 }
 
 }  // namespace tendril

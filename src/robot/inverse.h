@@ -58,6 +58,7 @@ class InverseKinematics {
   void solve_numeric(const Frame& target, const InverseOptions& options, const std::vector<double>& near,
                      const RunContext& context, InverseResult& result) const;
   bool polish(const Frame& target, std::vector<double>& q) const;
+  std::vector<double> places_of(int v, double at, double near, const InverseOptions& options) const;
   void add_turns(const std::vector<double>& q, const InverseOptions& options, const std::vector<double>& near,
                  InverseResult& result) const;
 

@@ -27,22 +27,24 @@ double uniform(std::mt19937_64& random) { return static_cast<double>(random() >>
 // One descent.
 class Descent {
  public:
-  Descent(const Robot& robot, int link, const std::vector<int>& moving, const Frame& target, bool limits)
+  Descent(const Robot& robot, int link, const std::vector<int>& moving, const Frame& target, bool limits,
+          const RunContext& context)
       : robot_(robot),
         link_(link),
         moving_(moving),
         target_(target),
         limits_(limits),
+        context_(context),
         jacobian_(6, robot.size()),
         columns_(6, moving.size()),
-        normal_(moving.size(), moving.size()),
+        normal_(std::min<Eigen::Index>(6, moving.size()), std::min<Eigen::Index>(6, moving.size())),
         step_(moving.size()) {}
 
   /// Returns what is left, m and rad added.
   double run(std::vector<double>& q) {
     double damping = 1e-3;
     double error = measure(q);
-    for (int i = 0; i < most_steps && left_ > good; ++i) {
+    for (int i = 0; i < most_steps && left_ > good && !context_.stop(); ++i) {
       prepare(q);
       bool better = false;
       for (int attempt = 0; attempt < 12 && !better; ++attempt) {
@@ -85,13 +87,23 @@ class Descent {
         if ((q[v] <= robot_.lower()[v] && pull[k] < 0) || (q[v] >= robot_.upper()[v] && pull[k] > 0)) columns_.col(k).setZero();
       }
     }
-    normal_ = columns_.transpose() * columns_;
+    if (redundant())
+      normal_ = columns_ * columns_.transpose();
+    else
+      normal_ = columns_.transpose() * columns_;
   }
+
+  bool redundant() const { return columns_.cols() > 6; }
+
+  // (J'J + damping)^-1 J' miss, which is J' (JJ' + damping)^-1 miss: the smaller of both matrices.
 
   void take_step(std::vector<double>& q, double damping) {
     Eigen::MatrixXd damped = normal_;
     damped.diagonal().array() += damping;
-    step_ = damped.ldlt().solve(columns_.transpose() * miss_);
+    if (redundant())
+      step_ = columns_.transpose() * damped.ldlt().solve(miss_);
+    else
+      step_ = damped.ldlt().solve(columns_.transpose() * miss_);
     const double largest = step_.cwiseAbs().maxCoeff();
     if (largest > 1) step_ /= largest;  // rad or m: beyond that the arm is another one
     for (std::size_t k = 0; k < moving_.size(); ++k) {
@@ -106,6 +118,7 @@ class Descent {
   const std::vector<int>& moving_;
   const Frame& target_;
   bool limits_;
+  const RunContext& context_;
   Jacobian jacobian_;
   Eigen::MatrixXd columns_, normal_;
   Eigen::VectorXd step_;
@@ -146,7 +159,7 @@ void InverseKinematics::solve_numeric(const Frame& target, const InverseOptions&
       break;
     }
     std::vector<double> q = start(*robot_, moving_, options, near, context.seed, number);
-    Descent descent(*robot_, link_, moving_, target, options.limits);
+    Descent descent(*robot_, link_, moving_, target, options.limits, context);
     const double left = descent.run(q);
     if (left < nearest) {
       nearest = left;

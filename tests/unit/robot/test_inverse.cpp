@@ -141,6 +141,46 @@ TEST_CASE("turns: all that fit the limits, nearest to the reference first", "[ro
   CHECK(inverse.solve(target, {.near = far, .turns = false}).solutions[0][3] == Approx(2.0 - 2 * units::pi));
 }
 
+TEST_CASE("turns: a bounded number of them, whatever the limits", "[robot]") {
+  ArmShape shape;
+  const std::vector<double> q = {0.3, 0.2, -0.4, 2.0, 1.0, -1.8};
+  for (double limit : {10.0, 17.0, 100.0}) {
+    CAPTURE(limit);
+    shape.limit = limit;
+    const auto robot = arm(shape);
+    const InverseKinematics inverse(robot, robot->tip());
+    const Frame target = robot->link_frame(robot->tip(), q);
+    const InverseResult all = inverse.solve(target, {.near = q});
+    CHECK(all.solutions.size() <= 8000);
+    CHECK(all.solutions.size() >= 4);
+    check_solutions(*robot, inverse, target, all);
+    for (int k = 0; k < 6; ++k) CHECK(all.solutions[0][k] == Approx(q[k]).margin(1e-9));
+    // Seen from many turns away the limits are still kept.
+    const InverseResult far = inverse.solve(target, {.near = std::vector<double>(6, 1000.0)});
+    CHECK(far.status == Status::solved);
+    check_solutions(*robot, inverse, target, far);
+  }
+}
+
+TEST_CASE("numeric: an arm of a thousand joints", "[robot]") {
+  std::vector<Joint> snake;
+  for (int k = 0; k < 1000; ++k)
+    snake.push_back({"j" + std::to_string(k),
+                     JointKind::revolute,
+                     k,
+                     {{0, 0, k ? 0.01 : 0}, Quat::Identity()},
+                     k % 2 ? Vec3::UnitX() : Vec3::UnitY(),
+                     -7,
+                     7});
+  const auto robot = std::make_shared<const Robot>("snake", named_links(1001), snake);
+  const InverseKinematics inverse(robot, 1000);
+  const Frame target{{1, 2, 3}, Quat::Identity()};
+  const InverseResult result = inverse.solve(target, {.starts = 3});
+  REQUIRE(result.status == Status::solved);
+  CHECK(result.solutions.size() <= 3);
+  check_solutions(*robot, inverse, target, result);
+}
+
 TEST_CASE("out of reach: the reason has the numbers", "[robot]") {
   const auto robot = arm();
   const InverseKinematics inverse(robot, robot->tip());
