@@ -38,27 +38,21 @@ Manipulation Manipulation::reversed() const {
   return back;
 }
 
-Travelled::Travelled(const Manipulation& manipulation) : times_(manipulation.times) {
-  for (const std::vector<Frame>& path : manipulation.poses) {
-    ways_.emplace_back(1, 0.0);
-    for (std::size_t i = 1; i < path.size(); ++i) ways_.back().push_back(ways_.back().back() + travel(path[i - 1], path[i]));
+Travelled::Travelled(const Manipulation& manipulation) : times_(manipulation.times), ways_(times_.size(), 0.0) {
+  for (std::size_t i = 1; i < times_.size(); ++i) {
+    double farthest = 0;
+    for (const std::vector<Frame>& path : manipulation.poses) farthest = std::max(farthest, travel(path[i - 1], path[i]));
+    ways_[i] = ways_[i - 1] + farthest;
   }
 }
 
 // Between two times places and orientations change evenly.
-double Travelled::until(std::size_t grip, double t) const {
-  const std::vector<double>& way = ways_[grip];
+double Travelled::until(double t) const {
   const auto after = std::upper_bound(times_.begin(), times_.end(), t);
-  if (after == times_.begin()) return way.front();
-  if (after == times_.end()) return way.back();
+  if (after == times_.begin()) return ways_.empty() ? 0 : ways_.front();
+  if (after == times_.end()) return ways_.back();
   const std::size_t i = after - times_.begin();
-  return way[i - 1] + (t - times_[i - 1]) / (times_[i] - times_[i - 1]) * (way[i] - way[i - 1]);
-}
-
-double Travelled::operator()(double from, double to) const {
-  double farthest = 0;
-  for (std::size_t g = 0; g < ways_.size(); ++g) farthest = std::max(farthest, until(g, to) - until(g, from));
-  return farthest;
+  return ways_[i - 1] + (t - times_[i - 1]) / (times_[i] - times_[i - 1]) * (ways_[i] - ways_[i - 1]);
 }
 
 double Manipulation::rests_from(int grip) const {

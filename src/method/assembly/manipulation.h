@@ -27,7 +27,7 @@ struct Manipulation {
   std::vector<std::vector<Frame>> poses;  ///< by grip, then by time
 
   Frame pose(int grip, double t) const;
-  /// The farthest that any grip travels between two times; m.
+  /// The way of whichever grip travels farthest at each time, summed between two times; m.
   double moved(double from, double to) const;
   Manipulation reversed() const;
   /// The time from which a grip is at rest until the end; 1 where it moves to the last.
@@ -41,12 +41,11 @@ struct Manipulation {
 class Travelled {
  public:
   explicit Travelled(const Manipulation& manipulation);
-  double operator()(double from, double to) const;
+  double operator()(double from, double to) const { return until(to) - until(from); }
 
  private:
-  double until(std::size_t grip, double t) const;
-  std::vector<double> times_;
-  std::vector<std::vector<double>> ways_;  // by grip, up to each time
+  double until(double t) const;
+  std::vector<double> times_, ways_;  // up to each time
 };
 
 }  // namespace tendril::assembly

@@ -21,6 +21,7 @@ namespace {
 using routing::FreeSpace;
 
 constexpr int most_supplementary = 4;      // grips, one after the other, before other traces are tried
+constexpr std::size_t most_by_handle = 8;  // attempts, before another one has its turn
 constexpr int optimisation_plays = 30;
 constexpr double same_side = 0.7;          // cosine of the angle between ways out, seen from where a connector got stuck
 constexpr double smoothing_window = 0.1;   // of the common time
@@ -88,7 +89,10 @@ ManipulationSearch::ManipulationSearch(const Scene& scene, const InstalledSystem
   drive_.jam = [this](const SystemEquilibrium& state) { return wedged(system_, state); };
 }
 
-bool ManipulationSearch::may_go_on() const { return !context_.stop() && static_cast<int>(result_.attempts.size()) < options_.attempts; }
+bool ManipulationSearch::may_go_on() const {
+  const std::size_t made = result_.attempts.size();
+  return !context_.stop() && static_cast<int>(made) < options_.attempts && made - by_earlier_handles_ < most_by_handle;
+}
 
 /// By how short their longest arm is.
 std::vector<Grip> ManipulationSearch::handles() const {
@@ -102,6 +106,7 @@ std::vector<Grip> ManipulationSearch::handles() const {
 
 bool ManipulationSearch::run() {
   for (const Grip& handle : handles()) {
+    by_earlier_handles_ = result_.attempts.size();
     if (!may_go_on()) return false;
     if (by_handle(handle)) return true;
   }

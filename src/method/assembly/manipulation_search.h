@@ -48,6 +48,7 @@ class ManipulationSearch {
   DriveOptions drive_;
   std::vector<Wedged> wedged_;
   bool jammed_ = false;  // the last pull
+  std::size_t by_earlier_handles_ = 0;  // attempts
   double furthest_ = -1;  // of all attempts: the part that failed, and how far in
 };
 

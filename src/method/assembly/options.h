@@ -30,7 +30,7 @@ struct Options {
   double max_strain = 0.3;             ///< of the outermost fibre, all the way
   double min_bend_radius = 0;          ///< m, all the way; 0: any
   double deviation = 0.05;             ///< of the thickest radius: how near the last state must be to the routed one
-  int attempts = 12;                   ///< handles, paths, gravity modes, grips: tried in order of promise
+  int attempts = 20;                   ///< handles, paths, gravity modes, grips: tried in order of promise
   bool optimise = true;                ///< the found manipulation: shorter, smoother, with more clearance, fewer grips
   double optimise_seconds = 5;         ///< s
   int replays = 0;                     ///< of the proven manipulation, by hands that stray by a quarter of the thickest radius

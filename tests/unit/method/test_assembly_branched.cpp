@@ -199,6 +199,7 @@ TEST_CASE("assembly: the grip that strayed farthest is held next, then what cont
   result.moved.passed.push_back({0.5, system.routed, false});
   // Nothing strays: the place next to the contact.
   ContactForce contact{};
+  contact.point.setZero();
   contact.s = system.extra[2].at + 0.01;
   contact.force = Vec3(0, 0, 2);
   result.moved.passed.back().equilibrium.rods[0].contacts.push_back(contact);
