@@ -640,9 +640,11 @@ local assembly_proof_methods = {}
 ---@field ok boolean Found, and proven by playing it forward
 ---@field paths grip_paths Where each grip is: paths["hose.start"](t), t = 0 ... 1 from outside to the routed configuration
 ---@field proof assembly_proof How the forward play went
+---@field replays table<string, integer> {of =, arrived =}: replays by hands that stray by a quarter of the thickest radius; where some do not arrive it is fragile
 ---@field seconds number Run time (s)
 ---@field status string "solved", "infeasible", "stalled", "cancelled", "timeout"
 ---@field steps (step)[] Name, seconds, counts of each
+---@field stopped_at vec? Where the best attempt was stopped; nil: one was proven (m)
 ---@field worst assembly_worst Strain, bend radius and clearance on the way, when and where
 local assembly_methods = {}
 
@@ -654,7 +656,7 @@ local assembly_methods = {}
 ---@return sheet
 function assembly_methods:chart(options) end
 
----The equilibrium that was played nearest to t = 0 ... 1; at 1 the connections alone hold it.
+---The equilibrium that was played nearest to t = 0 ... 1; at 1 the connections alone hold it. Where none was proven: of the attempt that came furthest.
 ---@param t number
 ---@return equilibrium
 function assembly_methods:frame(t) end
@@ -1511,10 +1513,11 @@ method = {}
 ---@field max_strain? number Of the outermost fibre, all the way (> 0; default 0.3)
 ---@field min_bend_radius? number All the way (m; >= 0; default 0)
 ---@field deviation? number How near the last state must be to the routed one, in radii of the thickest rod (> 0 and <= 10; default 0.05)
----@field attempts? integer Handles, paths, grips that are tried, at most (1 ... 10000; default 12)
+---@field attempts? integer Handles, paths, grips that are tried, at most (1 ... 10000; default 20)
 ---@field routed? equilibrium An equilibrium of the scene: which one is the routed configuration; default: the one that s:solve finds
 ---@field optimise? boolean Make what was found shorter, smoother, with more clearance and fewer grips (default true)
 ---@field optimise_seconds? number For that, at most (s; >= 0; default 5)
+---@field replays? integer Of what was proven, by hands that stray by a quarter of the thickest radius: is it fragile? (0 ... 10000; default 0)
 ---@field element? "se3"|"staggered" Rod element: fourth order, or the second-order reference element (default "se3")
 ---@field clamp? "half_cell"|"thesis" How the staggered element clamps an end: second order, or the thesis's first order (default "half_cell")
 ---@field tolerance? number Largest last step: rotations in rad, positions over the length (1e-14 ... 0.01; default 1e-09)
