@@ -50,7 +50,7 @@ Frame InstalledSystem::pose(const SystemEquilibrium& state, const Grip& grip) co
   return {rod.points[nearest], rod.rotations[nearest]};
 }
 
-// Distances along the rods between places: ends, joined sections and the grip, by Dijkstra's method.
+// Distances along the rods between places (ends, joined sections, the grip) by Dijkstra's method.
 double InstalledSystem::arm(const Grip& grip) const {
   struct Place {
     int rod;
@@ -58,29 +58,34 @@ double InstalledSystem::arm(const Grip& grip) const {
     int branch;
   };
   std::vector<Place> places;
+  std::vector<std::vector<int>> on_rod(free.rods.size()), at_branch(free.branches.size());
+  const auto add = [&](const Place& place) {
+    on_rod[place.rod].push_back(static_cast<int>(places.size()));
+    if (place.branch >= 0) at_branch[place.branch].push_back(static_cast<int>(places.size()));
+    places.push_back(place);
+  };
   for (int k = 0; k < static_cast<int>(free.rods.size()); ++k)
-    for (const double at : {0.0, free.rods[k].rod.length}) places.push_back({k, at, -1});
+    for (const double at : {0.0, free.rods[k].rod.length}) add({k, at, -1});
   for (int b = 0; b < static_cast<int>(free.branches.size()); ++b)
-    for (const JoinedSection& section : free.branches[b].sections) places.push_back({section.rod, section.at, b});
-  const int count = static_cast<int>(places.size());
-  std::vector<double> way(count, INFINITY);
-  for (int i = 0; i < count; ++i) {
-    if (grip.branch >= 0 && places[i].branch == grip.branch) way[i] = 0;
-    if (grip.branch < 0 && places[i].rod == grip.rod) way[i] = std::abs(places[i].at - grip.at);
-  }
-  std::vector<char> done(count, 0);
-  for (int turn = 0; turn < count; ++turn) {
-    int next = -1;
-    for (int i = 0; i < count; ++i)
-      if (!done[i] && (next < 0 || way[i] < way[next])) next = i;
-    if (next < 0) break;
-    done[next] = 1;
-    for (int i = 0; i < count; ++i) {
-      double step = INFINITY;
-      if (places[i].rod == places[next].rod) step = std::abs(places[i].at - places[next].at);
-      if (places[i].branch >= 0 && places[i].branch == places[next].branch) step = 0;
-      way[i] = std::min(way[i], way[next] + step);
-    }
+    for (const JoinedSection& section : free.branches[b].sections) add({section.rod, section.at, b});
+  std::vector<double> way(places.size(), INFINITY);
+  std::priority_queue<std::pair<double, int>, std::vector<std::pair<double, int>>, std::greater<>> waiting;
+  const auto reach = [&](int place, double length) {
+    if (length >= way[place]) return;
+    way[place] = length;
+    waiting.push({length, place});
+  };
+  if (grip.branch >= 0)
+    for (const int place : at_branch[grip.branch]) reach(place, 0);
+  else
+    for (const int place : on_rod[grip.rod]) reach(place, std::abs(places[place].at - grip.at));
+  while (!waiting.empty()) {
+    const auto [length, here] = waiting.top();
+    waiting.pop();
+    if (length > way[here]) continue;
+    for (const int place : on_rod[places[here].rod]) reach(place, length + std::abs(places[place].at - places[here].at));
+    if (places[here].branch < 0) continue;
+    for (const int place : at_branch[places[here].branch]) reach(place, length);
   }
   return *std::max_element(way.begin(), way.end());
 }

@@ -26,15 +26,11 @@ constexpr int optimisation_plays = 30;
 constexpr double same_side = 0.7;          // cosine of the angle between ways out, seen from where a connector got stuck
 constexpr double smoothing_window = 0.1;   // of the common time
 
-std::shared_ptr<const FreeSpace> free_space(const Scene& scene, const InstalledSystem& system, const Options& options, const RunContext& context) {
+std::shared_ptr<const FreeSpace> free_space(const Scene& scene, const InstalledSystem& system, double arm, const Options& options, const RunContext& context) {
   routing::SpaceDemands demands;
   demands.radius = system.radius;
   std::vector<Vec3> ends;
-  double arm = 0;
-  for (const Grip& grip : system.extra) {
-    arm = std::max(arm, system.arm(grip));
-    ends.push_back(system.pose(system.routed, grip).at);
-  }
+  for (const Grip& grip : system.extra) ends.push_back(system.pose(system.routed, grip).at);
   if (options.exit) ends.push_back(*options.exit);
   return std::make_shared<const FreeSpace>(scene.without_rods(), demands, ends, 1.2 * arm + 4 * system.radius, context);
 }
@@ -77,7 +73,8 @@ ManipulationSearch::ManipulationSearch(const Scene& scene, const InstalledSystem
     : scene_(scene), system_(system), options_(options), context_(context), result_(result) {
   {
     const Stage stage(result.steps[handle_path_planning], "searches");
-    space_ = free_space(scene, system, options, context);
+    for (const Grip& grip : system.extra) arms_.push_back(system.arm(grip));
+    space_ = free_space(scene, system, *std::max_element(arms_.begin(), arms_.end()), options, context);
   }
   drive_.radius = system.radius;
   drive_.most_strain = options.max_strain;
@@ -94,28 +91,30 @@ bool ManipulationSearch::may_go_on() const {
   return !context_.stop() && static_cast<int>(made) < options_.attempts && made - by_earlier_handles_ < most_by_handle;
 }
 
-/// By how short their longest arm is.
-std::vector<Grip> ManipulationSearch::handles() const {
-  std::vector<Grip> handles;
-  for (const Grip& grip : system_.extra)
-    if (options_.grip.empty() || grip.name == options_.grip || (grip.rod >= 0 && system_.rods[grip.rod] == options_.grip)) handles.push_back(grip);
+/// Numbers of extra grips, by how short their longest arm is.
+std::vector<int> ManipulationSearch::handles() const {
+  std::vector<int> handles;
+  for (std::size_t k = 0; k < system_.extra.size(); ++k) {
+    const Grip& grip = system_.extra[k];
+    if (options_.grip.empty() || grip.name == options_.grip || (grip.rod >= 0 && system_.rods[grip.rod] == options_.grip)) handles.push_back(static_cast<int>(k));
+  }
   if (handles.empty()) throw UsageError("assembly: 'grip' names neither a rod nor a free branch point: '" + options_.grip + "'");
-  std::stable_sort(handles.begin(), handles.end(), [&](const Grip& a, const Grip& b) { return system_.arm(a) < system_.arm(b); });
+  std::stable_sort(handles.begin(), handles.end(), [&](int a, int b) { return arms_[a] < arms_[b]; });
   return handles;
 }
 
 bool ManipulationSearch::run() {
-  for (const Grip& handle : handles()) {
+  for (const int handle : handles()) {
     by_earlier_handles_ = result_.attempts.size();
     if (!may_go_on()) return false;
-    if (by_handle(handle)) return true;
+    if (by_handle(system_.extra[handle], arms_[handle])) return true;
   }
   return false;
 }
 
-bool ManipulationSearch::by_handle(const Grip& handle) {
+bool ManipulationSearch::by_handle(const Grip& handle, double arm) {
   const Frame from = system_.pose(system_.routed, handle);
-  const HandlePathOptions wanted{system_.radius, system_.arm(handle) + 2 * system_.radius, 0, options_.exit};
+  const HandlePathOptions wanted{system_.radius, arm + 2 * system_.radius, 0, options_.exit};
   std::vector<HandlePath> straight = straight_ways(*space_, from, wanted);
   std::optional<HandlePaths> paths;
   const auto next = [&]() -> std::optional<HandlePath> {

@@ -28,8 +28,8 @@ class ManipulationSearch {
 
   bool may_go_on() const;
   bool wedges(const HandlePath& path) const;
-  std::vector<Grip> handles() const;
-  bool by_handle(const Grip& handle);
+  std::vector<int> handles() const;
+  bool by_handle(const Grip& handle, double arm);
   bool along(const Grip& handle, const HandlePath& path, bool gravity);
   bool supplemented(const Manipulation& all, const Attempt& kind, const Pulled& pulled, const HandlePath& path);
   Played played(const Manipulation& forward, const SystemEquilibrium& start, const RunContext& context) const;
@@ -44,6 +44,7 @@ class ManipulationSearch {
   const Options& options_;
   const RunContext& context_;
   Result& result_;
+  std::vector<double> arms_;  // m, of the system's extra grips
   std::shared_ptr<const routing::FreeSpace> space_;
   DriveOptions drive_;
   std::vector<Wedged> wedged_;

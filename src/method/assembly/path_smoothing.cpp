@@ -19,17 +19,31 @@ constexpr int most_corrections = 8;
 /// One grip at evenly spaced times.
 using Poses = std::vector<Frame>;
 
-Frame averaged(const Poses& raw, int middle, int half) {
-  Vec3 place = Vec3::Zero();
-  Eigen::Vector4d turn = Eigen::Vector4d::Zero();
-  for (int i = middle - half; i <= middle + half; ++i) {
-    place += raw[i].at;
-    const Eigen::Vector4d q = raw[i].rotation.coeffs();
-    turn += q.dot(raw[middle].rotation.coeffs()) < 0 ? Eigen::Vector4d(-q) : q;
+/// Means of places and orientations over windows, from sums.
+class Averages {
+ public:
+  explicit Averages(const Poses& raw) : raw_(raw), places_(1, Vec3::Zero()), turns_(1, Eigen::Vector4d::Zero()) {
+    Eigen::Vector4d last = raw.front().rotation.coeffs();
+    for (const Frame& pose : raw) {
+      // Of the two quaternions of an orientation the one nearer to that before it.
+      Eigen::Vector4d turn = pose.rotation.coeffs();
+      if (turn.dot(last) < 0) turn = -turn;
+      places_.push_back(places_.back() + pose.at);
+      turns_.push_back(turns_.back() + turn);
+      last = turn;
+    }
   }
-  Frame frame{place / (2 * half + 1), Quat(turn.normalized())};
-  return frame;
-}
+  Frame at(int middle, int half) const {
+    if (half == 0) return raw_[middle];
+    const int begin = middle - half, end = middle + half + 1;
+    return {(places_[end] - places_[begin]) / (end - begin), Quat((turns_[end] - turns_[begin]).normalized())};
+  }
+
+ private:
+  const Poses& raw_;
+  std::vector<Vec3> places_;
+  std::vector<Eigen::Vector4d> turns_;
+};
 
 double distance_at(const InstalledSystem& system, const Vec3& at, double limit) {
   return system.surroundings ? system.surroundings->closest(at, limit).distance : limit;
@@ -57,17 +71,18 @@ Vec3 cleared(const InstalledSystem& system, Vec3 at, double wanted) {
 Poses smoothed_grip(const InstalledSystem& system, const Grip& grip, const Poses& raw, int widest) {
   const int last = static_cast<int>(raw.size()) - 1;
   std::vector<int> half(raw.size());
+  const Averages averages(raw);
   for (int i = 0; i <= last; ++i) {
     half[i] = std::min({widest, i, last - i});
     const double wanted = wanted_distance(system, grip, raw.back().at, raw[i].at) - may_lose * system.radius;
-    while (half[i] > 0 && distance_at(system, averaged(raw, i, half[i]).at, wanted) < wanted) half[i] /= 2;
+    while (half[i] > 0 && distance_at(system, averages.at(i, half[i]).at, wanted) < wanted) half[i] /= 2;
   }
   const int slope = std::max(1, static_cast<int>(steepest_window));
   for (int i = 1; i <= last; ++i) half[i] = std::min(half[i], half[i - 1] + slope);
   for (int i = last - 1; i >= 0; --i) half[i] = std::min(half[i], half[i + 1] + slope);
   Poses smooth(raw.size());
   for (int i = 0; i <= last; ++i) {
-    smooth[i] = averaged(raw, i, half[i]);
+    smooth[i] = averages.at(i, half[i]);
     // A narrower window than the one that was tested may come nearer.
     if (system.surroundings && half[i] > 0) smooth[i].at = cleared(system, smooth[i].at, wanted_distance(system, grip, raw.back().at, smooth[i].at));
   }
