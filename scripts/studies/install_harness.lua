@@ -1,4 +1,4 @@
--- Can it be installed, and how? A hose round a post and through a ring; then the ignition harness of the engine bay, nine rods with
+-- Can it be installed, and how? A hose past a post and through a ring; then the ignition harness of the engine bay, nine rods with
 -- six connectors: its coupling, four ignition coils, the throttle's sensor.
 --
 --   scripts/run scripts/studies/install_harness.lua              the fine engine bay, over a million triangles
@@ -45,7 +45,7 @@ local function ring(world, around, hole, wire)
   end
 end
 
--- The hose: round the post, and through a ring.
+-- The hose: past the post, and through a ring.
 local rubber = rod.material{young = 6 * MPa, poisson = 0.49, density = 1150}
 local yard = scene.new{gravity = {0, 0, -9.81}}
 yard:obstacle("post", scene.cylinder{radius = 30 * mm, length = 0.3}, {pose = frame{at = {0.12, -0.005, 0.15}, along = {0, 0, 1}}})
@@ -56,7 +56,7 @@ assert(hangs.ok, hangs.message)
 ring(yard, hangs:rod("hose"):at(0.2), 34 * mm, 6 * mm)
 local threaded = yard:solve{from = hangs}
 assert(threaded.ok, threaded.message)
-report(method.assembly(yard, {routed = threaded, optimise_seconds = 2}), "install_hose", "A hose round a post and through a ring", "hose")
+report(method.assembly(yard, {routed = threaded, optimise_seconds = 2}), "install_hose", "A hose past a post and through a ring")
 
 -- The harness: PVC bundles, a lead of 13 mm, a trunk of 11 mm behind the valve cover, cables of 7 mm to the coils and the throttle.
 local bundle = rod.material{young = 20 * MPa, poisson = 0.4, density = 1500}

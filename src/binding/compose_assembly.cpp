@@ -12,6 +12,8 @@ namespace {
 
 constexpr Rgb pale{0.80f, 0.84f, 0.88f}, full{0.20f, 0.42f, 0.65f}, red{0.80f, 0.10f, 0.10f};
 
+constexpr double shortest_labelled = 0.08;  // of the board
+
 Rgb mixed(double share) {
   const float s = static_cast<float>(share);
   return {pale.r + s * (full.r - pale.r), pale.g + s * (full.g - pale.g), pale.b + s * (full.b - pale.b)};
@@ -56,7 +58,8 @@ PictureExtras extras_of(const assembly::FlattenResult& board) {
   PictureExtras extras;
   for (const assembly::BoardPoint& point : board.points) extras.labels.push_back({point.at, std::nullopt, point.name, false});
   for (const assembly::BoardLine& line : board.lines) {
-    if (line.points.empty()) continue;
+    // A label beside a line that is shorter than itself would say more about its place than about the line.
+    if (line.points.empty() || line.length < shortest_labelled * std::max(board.width, board.height)) continue;
     extras.labels.push_back({line.points[line.points.size() / 2], std::nullopt, length_text(line.length), false});
   }
   extras.rows = {{"board", length_text(board.width) + " x " + length_text(board.height), false},
