@@ -253,9 +253,11 @@ bool ManipulationSearch::is_furthest(double progress, const Drive& stopped) {
 
 void ManipulationSearch::note(const Attempt& attempt, const Grip& handle, const Pulled& pulled, const HandlePath& path) {
   result_.attempts.push_back(attempt);
-  const Drive& stopped = pulled.released.ok() ? pulled.pulled : pulled.released;
+  const bool unplugged = !pulled.released.passed.empty();
+  const Drive& stopped = pulled.released.ok() ? pulled.pulled : unplugged ? pulled.released : pulled.unplugged;
   if (!is_furthest((pulled.released.ok() ? 1 : 0) + share_of(stopped), stopped)) return;
-  result_.message = "pulled out by '" + attempt.handle + "', " + percent(share_of(stopped)) + (pulled.released.ok() ? " of the way: " : " of the connections' release: ") + pulled.message;
+  const char* part = pulled.released.ok() ? " of the way: " : unplugged ? " of the connections' release: " : " of the way out of its sockets: ";
+  result_.message = "pulled out by '" + attempt.handle + "', " + percent(share_of(stopped)) + part + pulled.message;
   result_.handle_path = path.points;
   result_.play = key_frames(scene_, system_, {handle}, stopped.passed, attempt.gravity ? system_.gravity() : Vec3::Zero(), options_.solve);
 }

@@ -213,9 +213,9 @@ Manipulation traces(const InstalledSystem& system, const Pulled& pulled, const s
     }
     trace.times.push_back(trace.times.empty() ? 0 : trace.times.back() + std::max(farthest, 1e-9));
   };
-  for (const Passed& passed : pulled.unplugged.passed) add(passed.equilibrium);
-  for (std::size_t i = pulled.unplugged.passed.empty() ? 0 : 1; i < pulled.released.passed.size(); ++i) add(pulled.released.passed[i].equilibrium);
-  for (std::size_t i = 1; i < pulled.pulled.passed.size(); ++i) add(pulled.pulled.passed[i].equilibrium);
+  // Each drive begins where the one before ended.
+  for (const Drive* drive : {&pulled.unplugged, &pulled.released, &pulled.pulled})
+    for (std::size_t i = trace.times.empty() ? 0 : 1; i < drive->passed.size(); ++i) add(drive->passed[i].equilibrium);
   // The first state is the routed one: connections are where they belong to the last digit.
   for (std::size_t g = 0; g < grips.size(); ++g)
     for (std::size_t c = 0; c < system.connections.size(); ++c)
