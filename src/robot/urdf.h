@@ -11,8 +11,8 @@ namespace tendril {
 /// Reads links with their visual and collision bodies (meshes, boxes, cylinders, spheres) and joints that are fixed,
 /// revolute, continuous or prismatic, with limits and mimicry. What a robot's dynamics and looks are made of (inertial,
 /// transmission, material, sensors, safety_controller, efforts) is left out. A limit on velocity of 0 means that none is
-/// stated. Mesh files are in metres times their `scale`, whatever unit they say themselves; they are looked for now
-/// (package_path.h) and read when first used.
+/// stated. Mesh files are in metres times their `scale`, whatever unit they say themselves; they are looked for
+/// at once (package_path.h) and read when first used.
 ///
 /// Throws UsageError naming the file and, wherever there is one, the line: a file that is missing or no XML, missing
 /// elements, unknown names, links given twice, carried twice or in a circle, several bases, numbers that are none or

@@ -6,6 +6,7 @@
 
 #include "base/nearest_name.h"
 #include "base/number_text.h"
+#include "method/assembly/quasi_static.h"
 #include "method/assembly/connector_ends.h"
 #include "statics/solve.h"
 
@@ -92,13 +93,6 @@ double InstalledSystem::arm(const Grip& grip) const {
 
 namespace {
 
-double farthest_apart(const SystemEquilibrium& a, const SystemEquilibrium& b) {
-  double farthest = 0;
-  for (std::size_t k = 0; k < a.rods.size(); ++k)
-    for (std::size_t i = 0; i < a.rods[k].points.size(); ++i) farthest = std::max(farthest, (a.rods[k].points[i] - b.rods[k].points[i]).norm());
-  return farthest;
-}
-
 // Without friction some equilibria on edges have a neighbour a fraction of a radius away that they change to when they are touched:
 // every installation would end there. Touched and let go until it stays; where that leads farther away it is left as it was.
 void settle(InstalledSystem& installed, const SolveOptions& solve, const RunContext& context) {
@@ -112,8 +106,8 @@ void settle(InstalledSystem& installed, const SolveOptions& solve, const RunCont
     const SystemEquilibrium held = tendril::solve(held_by(installed.free, grips, poses), solve, context, &state);
     if (!held.ok()) return;
     SystemEquilibrium freed = tendril::solve(held_by(installed.free, installed.connections, installed.connected), solve, context, &held);
-    if (!freed.ok() || farthest_apart(freed, installed.routed) > touched_off * installed.radius) return;
-    const bool stays = farthest_apart(freed, state) < touched_still * installed.radius;
+    if (!freed.ok() || farthest_move(freed, installed.routed) > touched_off * installed.radius) return;
+    const bool stays = farthest_move(freed, state) < touched_still * installed.radius;
     state = std::move(freed);
     if (stays) break;
   }

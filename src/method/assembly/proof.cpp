@@ -75,14 +75,6 @@ Drive let_go(const InstalledSystem& system, const std::vector<Grip>& grips, cons
   return drive(bare, path, moved, start, options, solve, context);
 }
 
-double deviation_of(const SystemEquilibrium& a, const SystemEquilibrium& b) {
-  double farthest = 0;
-  for (std::size_t k = 0; k < a.rods.size(); ++k)
-    for (std::size_t i = 0; i < a.rods[k].points.size(); ++i)
-      farthest = std::max(farthest, (a.rods[k].points[i] - b.rods[k].points[i]).norm());
-  return farthest;
-}
-
 /// Worst values over what was played.
 void measure(const InstalledSystem& system, const Drive& drive, double from, double to, Proof& proof) {
   for (const Passed& passed : drive.passed) {
@@ -142,7 +134,7 @@ Played play(const InstalledSystem& system, const Manipulation& manipulation, con
     return played;
   }
   const SystemEquilibrium& last = played.let_go.passed.back().equilibrium;
-  proof.deviation = deviation_of(last, system.routed);
+  proof.deviation = farthest_move(last, system.routed);
   bool stable = true;
   for (const Equilibrium& rod : last.rods) stable = stable && rod.stable;
   const bool overlaps = proof.clearance < -most_overlap * system.radius;

@@ -29,14 +29,6 @@ constexpr double flow_most = 0.7, flow_least = 0.35;
 constexpr double flow_growth = 1.3;
 constexpr int flow_steps = 400, flow_refused = 6;  // the latter in a row without getting anywhere
 
-double farthest_move(const SystemEquilibrium& a, const SystemEquilibrium& b) {
-  double farthest = 0;
-  for (std::size_t k = 0; k < a.rods.size(); ++k)
-    for (std::size_t i = 0; i < a.rods[k].points.size(); ++i)
-      farthest = std::max(farthest, (a.rods[k].points[i] - b.rods[k].points[i]).norm());
-  return farthest;
-}
-
 class Driver {
  public:
   Driver(const SystemProblem& problem, const ProblemPath& path, const std::function<double(double, double)>& moved,
@@ -271,6 +263,14 @@ class Driver {
 };
 
 }  // namespace
+
+double farthest_move(const SystemEquilibrium& a, const SystemEquilibrium& b) {
+  double farthest = 0;
+  for (std::size_t k = 0; k < a.rods.size(); ++k)
+    for (std::size_t i = 0; i < a.rods[k].points.size(); ++i)
+      farthest = std::max(farthest, (a.rods[k].points[i] - b.rods[k].points[i]).norm());
+  return farthest;
+}
 
 Drive drive(const SystemProblem& problem, const ProblemPath& path, const std::function<double(double from, double to)>& moved,
             const SystemEquilibrium& from, const DriveOptions& options, const SolveOptions& solve, const RunContext& context) {

@@ -47,6 +47,9 @@ struct Drive {
   bool ok() const { return end == End::arrived; }
 };
 
+/// m: the farthest that any vertex is from itself in another state on the same mesh.
+double farthest_move(const SystemEquilibrium& a, const SystemEquilibrium& b);
+
 /// `from`: in equilibrium with `path` at t = 0. `moved`: m, how far what drives goes between two times. All problems of the path
 /// have the same rods, holds and springs but for poses, stiffnesses, gravity.
 Drive drive(const SystemProblem& problem, const ProblemPath& path, const std::function<double(double from, double to)>& moved,
