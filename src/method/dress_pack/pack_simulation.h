@@ -1,0 +1,76 @@
+// A dress pack on a robot that follows a path, from equilibrium to equilibrium (thesis 3.5: quasi-static motion).
+//
+// Each motion of the holds is answered by the first-order response of the rods and then corrected by Newton's method. On a smooth
+// way the correction over the prediction falls with the step, at a snap-through it grows: a motion with a ratio above 0.1 is made
+// in two halves. What cannot be made in the smallest steps is left to the ordinary solver, which runs down the energy from there:
+// the rods have snapped through when that took them far.
+//
+// With surroundings the ordinary solver makes all steps, contact included (statics/motion.h).
+// Not done: friction, contact between the rods of a pack, and with the robot's own links.
+#pragma once
+
+#include <string>
+
+#include "base/run_context.h"
+#include "method/dress_pack/pack_statics.h"
+
+namespace tendril::dress_pack {
+
+struct SimulationOptions {
+  int steps = 40;              ///< reports, evenly spaced in time; via points are passed exactly in any case
+  double largest_turn = 0.25;  ///< rad or m, of a joint in one motion
+  double smallest_turn = 1e-4; ///< rad or m; what happens within it is a snap-through
+  double tolerance = 1e-9;     ///< see SolveOptions
+};
+
+/// What one attachment exerts on its rod, in world axes, the moment about the section's centre.
+struct EndLoad {
+  Vec3 force = Vec3::Zero();   ///< N
+  Vec3 moment = Vec3::Zero();  ///< N m
+};
+
+struct RodReport {
+  double tension = 0;      ///< N, the largest force along the rod; negative: compression everywhere
+  double twist = 0;        ///< rad/m, the largest change against the unstressed rod, without sign
+  double bend_radius = 0;  ///< m, the smallest
+  double clearance = 0;    ///< m, of the surfaces; infinity without surroundings within reach; negative: overlap
+};
+
+struct PackStep {
+  double t = 0;                ///< 0 ... 1
+  JointVector q;
+  std::vector<EndLoad> ends;   ///< by attachment
+  std::vector<RodReport> rods;
+  double residual = 0;         ///< N, largest unbalanced force, or moment over length
+  RodState state;              ///< by node: PackStatics::describe() makes it an equilibrium
+};
+
+struct PackSnap {
+  double t = 0;            ///< just after this time
+  int rod = 0;             ///< that moved farthest
+  double move = 0;         ///< by so much, m
+  double energy_drop = 0;  ///< J
+};
+
+struct PackMotion {
+  Status status = Status::stalled;
+  std::string message;
+  std::vector<PackStep> steps;   ///< those that were reached
+  std::vector<PackSnap> snaps;
+  int iterations = 0;            ///< factorisations; with surroundings: solutions
+  double seconds = 0;
+  bool ok() const { return status == Status::solved; }
+
+  double largest_end_force() const;    ///< N, over attachments and steps
+  double largest_tension() const;      ///< N
+  double largest_twist() const;        ///< rad/m
+  double smallest_bend_radius() const; ///< m
+  double smallest_clearance() const;   ///< m
+};
+
+/// Throws UsageError for a pack or options that make no sense. A path beyond the robot's limits is refused as infeasible, with the
+/// reason; where the rods find no equilibrium the motion has stalled and ends with the last step that was reached.
+PackMotion simulate(const PackProblem& pack, const JointPath& path, const SimulationOptions& options = {},
+                    const RunContext& context = {});
+
+}  // namespace tendril::dress_pack
