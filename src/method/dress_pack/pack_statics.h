@@ -38,7 +38,10 @@ class PackStatics {
   /// Assembles and factorises the exact second derivative. False: it is not positive, so the state is not a stable equilibrium.
   bool stand_at(const RodState& state);
 
-  /// At the state last stood at: the gradient of all terms; at held unknowns what the holds exert on the rods (force in world
+  /// The gradient alone, without second derivative.
+  void load_at(const RodState& state) { network_->gradient(state, gradient_); }
+
+  /// At the state last stood at, or asked for by load_at(): the gradient of all terms; at held unknowns what the holds exert on the rods (force in world
   /// axes, N; moment in the section's axes, N m).
   const std::vector<Vec6>& gradient() const { return gradient_; }
   Vec6 end_load(int attachment) const { return gradient_[nodes_[attachment]]; }

@@ -54,13 +54,17 @@ inline JointPath problematic_path(int via = 8) {
   return JointPath({degrees({0, 0, 0, 0, 30, 0}), degrees({20, 10, -10, 80, -70, 40}), degrees({40, 0, 0, 160, 30, 50})}).resampled(via);
 }
 
-/// A planar two-link arm in the plane x, y with a hose from its base to its tip, without weight.
+/// A planar two-link arm in the plane x, y with a hose from its base to its tip, without weight, and too stiff to leave the plane.
 inline PackProblem planar_pack(int segments = 16) {
   PackProblem pack;
   Robot robot = planar_arm({0.6, 0.5});
   pack.robot = std::make_shared<const Robot>(std::move(robot));
   pack.rods = {hose(1.2, segments)};
   pack.rods[0].gravity.setZero();
+  Section flat = hose_section();
+  flat.EI2 = 80;  // d1 is normal to the plane
+  flat.GJ = 56;
+  pack.rods[0].rod = Rod::uniform(1.2, flat, segments);
   pack.attachments = {{0, 0, 0, Frame::looking({0, 0.1, 0}, {1, 0, 0}, {0, 0, 1})},
                       {0, 1, 3, Frame::looking({0, 0, 0}, {1, 0, 0}, {0, 0, 1})}};
   return pack;

@@ -1,0 +1,55 @@
+// Optimises a robot's path for its dress pack (thesis 3.5, Paper E), by the reduced formulation: only the via points are variables.
+//
+// Trust-region method with exact gradient and second derivative (reduced_problem.h, trust_step.h). Joint limits and speed limits hold
+// at every iterate; the first and the last via point stay. A local optimum of the given path's kind is found: a rod that would have to
+// snap through on the way is kept from it. What the first or the last configuration demands no via point can lower.
+//
+// Not done: contact and clearance. The optimised path is to be simulated with its surroundings (pack_simulation.h).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "method/dress_pack/pack_simulation.h"
+#include "method/dress_pack/reduced_problem.h"
+#include "method/dress_pack/trust_step.h"
+
+namespace tendril::dress_pack {
+
+struct ReducedOptions {
+  int steps = 40;              ///< time steps
+  int via = 0;                 ///< via points, first and last included; 0: those of the path
+  double seconds = 0;          ///< that the path takes; 0: the joints' speeds have no limits
+  PackDemands demands = {};
+  PathWeights weights = {};
+  double tolerance = 1e-7;     ///< of the objective, relative: what another step would gain
+  int most_iterations = 100;
+  double first_radius = 0.5;   ///< rad, of the trust region; all variables together
+};
+
+struct ReducedIteration {
+  double objective = 0, step = 0, radius = 0;
+  bool accepted = false;
+};
+
+struct ReducedResult {
+  Status status = Status::stalled;
+  std::string message;
+  JointPath path;               ///< the best that was found; within all limits
+  double objective_before = 0, objective = 0;
+  int iterations = 0;
+  std::vector<ReducedIteration> history;
+  PackMotion before, after;     ///< simulated from the start, without surroundings
+  double seconds = 0;           ///< in all; of the optimisation alone:
+  double search_seconds = 0;
+  bool ok() const { return status == Status::solved; }
+};
+
+/// A path that begins beyond the robot's limits, or on which the rods find no equilibrium, is refused as infeasible, with the reason.
+/// Cancelled or out of time, the best path so far is returned. Throws UsageError for a pack or options that make no sense.
+ReducedResult optimise(const PackProblem& pack, const JointPath& path, const ReducedOptions& options = {}, const RunContext& context = {});
+
+/// Joint and speed limits of the free via points, one after the other; `seconds` 0: joint limits alone.
+LinearLimits limits_of(const Robot& robot, const JointPath& path, double seconds);
+
+}  // namespace tendril::dress_pack
