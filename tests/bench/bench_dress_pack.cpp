@@ -1,0 +1,118 @@
+// Robot paths for a dress pack: builtin:six_axis with a hose of 1.6 m (EI 2 and GJ 1.4 N m^2, EA 20 kN, 15 N/m) from its upper arm to
+// its hand, 16 elements. `problematic`: wrung through 160 + 50 degrees and pulled taut on the way; `taut`: pulled taut; `easy`: neither.
+// Counters: largest force of a hold before and after, N; objective; iterations. `cpu` of optimise() holds the simulations of the path
+// before and after as well; `search_ms` is the optimisation alone, the fastest of the run.
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+
+#include "geometry/surroundings.h"
+#include "method/dress_pack/reduced.h"
+#include "robot/load_robot.h"
+#include "unit/method/dress_pack_cases.h"
+
+using namespace tendril;
+using namespace tendril::dress_pack;
+using tendril::test::degrees;
+
+namespace {
+
+PackProblem six_axis_hose(int segments) {
+  PackProblem pack;
+  pack.robot = load_robot("builtin:six_axis");
+  pack.rods = {test::hose(1.6, segments)};
+  pack.attachments = {{0, 0, pack.robot->link("link_2"), Frame::looking({0.05, 0.2, 0.75}, {1, 0, 1}, {0, 0, 1})},
+                      {0, 1, pack.robot->link("link_6"), Frame::looking({0.05, 0, 0.15}, {1, 0, 0}, {0, 0, 1})}};
+  return pack;
+}
+
+enum Case { problematic, taut, easy };
+
+JointPath path_of(int which, int via = 8) {
+  const JointVector start = degrees({0, 0, 0, 0, 0, 0});
+  if (which == problematic) return JointPath({start, degrees({30, 10, -80, 80, 45, 25}), degrees({60, 0, -10, 160, 0, 50})}).resampled(via);
+  if (which == taut) return JointPath({start, degrees({30, 10, -75, 20, 40, 0}), degrees({60, 0, 0, 0, 0, 0})}).resampled(via);
+  return JointPath({start, degrees({30, 5, -20, 20, 10, 10}), degrees({60, 0, 0, 40, 0, 0})}).resampled(via);
+}
+
+ReducedOptions options_of(int steps = 40) {
+  ReducedOptions options;
+  options.steps = steps;
+  options.demands.force = {50, 50};
+  options.demands.twist = {2, 0.5};
+  options.demands.curvature = {8, 2};
+  return options;
+}
+
+void optimised(benchmark::State& run, int which) {
+  const PackProblem pack = six_axis_hose(16);
+  const JointPath path = path_of(which);
+  ReducedResult found;
+  double search = 1e9;
+  for (auto _ : run) {
+    found = optimise(pack, path, options_of());
+    search = std::min(search, found.search_seconds);
+  }
+  if (!found.ok()) run.SkipWithError(found.message.c_str());
+  run.counters["search_ms"] = 1e3 * search;
+  run.counters["iterations"] = found.iterations;
+  run.counters["f_before"] = found.objective_before;
+  run.counters["f"] = found.objective;
+  run.counters["N_before"] = found.before.largest_end_force();
+  run.counters["N_after"] = found.after.largest_end_force();
+}
+
+void path_problematic(benchmark::State& run) { optimised(run, problematic); }
+void path_taut(benchmark::State& run) { optimised(run, taut); }
+void path_easy(benchmark::State& run) { optimised(run, easy); }
+BENCHMARK(path_problematic)->Unit(benchmark::kMillisecond);
+BENCHMARK(path_taut)->Unit(benchmark::kMillisecond);
+BENCHMARK(path_easy)->Unit(benchmark::kMillisecond);
+
+/// Gradient and second derivative at 40 time steps, and the gradient alone.
+void derivatives(benchmark::State& run) {
+  const PackProblem pack = six_axis_hose(16);
+  const ReducedOptions options = options_of();
+  ReducedProblem problem(pack, path_of(easy), options.steps, options.demands, options.weights);
+  if (!problem.start({}).ok()) return run.SkipWithError("not followed");
+  Eigen::VectorXd gradient;
+  Eigen::MatrixXd hessian;
+  for (auto _ : run) {
+    const bool ok = run.range(0) ? problem.derivatives(gradient, hessian, {}) : problem.gradient(gradient);
+    if (!ok) run.SkipWithError("not stable");
+  }
+}
+BENCHMARK(derivatives)->ArgName("second")->Arg(0)->Arg(1)->Unit(benchmark::kMicrosecond);
+
+void simulated(benchmark::State& run) {
+  PackProblem pack = six_axis_hose(static_cast<int>(run.range(0)));
+  Surroundings around;
+  around.add({Box{{0.7, 0.4, 0.2}}, {{1.1, 0.5, 1.75}, Quat::Identity()}, 0, "fixture"});
+  if (run.range(1)) pack.rods[0].surroundings = &around;
+  const JointPath path = path_of(static_cast<int>(run.range(2)));
+  PackMotion motion;
+  for (auto _ : run) motion = simulate(pack, path, {200});
+  if (!motion.ok()) run.SkipWithError(motion.message.c_str());
+  run.counters["us_a_step"] = benchmark::Counter(200e-6, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+  run.counters["N"] = motion.largest_end_force();
+  if (run.range(1)) run.counters["clearance_mm"] = 1e3 * motion.smallest_clearance();
+  run.counters["snaps"] = static_cast<double>(motion.snaps.size());
+  run.counters["solves"] = motion.iterations;
+}
+BENCHMARK(simulated)->ArgNames({"segments", "contact", "path"})->Args({16, 0, easy})->Args({32, 0, easy})->Args({16, 0, problematic})->Args({16, 1, easy})->Unit(benchmark::kMillisecond);
+
+/// The objective of one path against the time steps that judge it.
+void judged(benchmark::State& run) {
+  const PackProblem pack = six_axis_hose(static_cast<int>(run.range(0)));
+  const ReducedOptions options = options_of(static_cast<int>(run.range(1)));
+  double objective = 0;
+  for (auto _ : run) {
+    ReducedProblem problem(pack, path_of(taut), options.steps, options.demands, options.weights);
+    if (!problem.start({}).ok()) run.SkipWithError("not followed");
+    objective = problem.objective();
+  }
+  run.counters["f"] = objective;
+}
+BENCHMARK(judged)->ArgNames({"segments", "steps"})->Args({16, 20})->Args({16, 40})->Args({16, 80})->Args({16, 200})->Args({32, 200})->Args({64, 200})->Unit(benchmark::kMillisecond);
+
+}  // namespace
