@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "geometry/surroundings.h"
 #include "method/dress_pack/joint_path.h"
 #include "statics/problem.h"
 
@@ -17,12 +18,19 @@ struct Attachment {
   Frame in_link = {};  ///< the section's frame in the link's axes, m
 };
 
+/// Something solid that the rods, and the robot, keep clear of or touch.
+struct PackBody {
+  Obstacle body;   ///< its pose: in world axes, or in those of
+  int link = -1;   ///< a link that carries it; -1: fixed
+};
+
 /// Holds that no attachment names stay in the world where their rod's problem has them.
 struct PackProblem {
   std::shared_ptr<const Robot> robot;
   Frame base = {};                      ///< of the robot's link 0, in world axes
   std::vector<RodProblem> rods;
   std::vector<Attachment> attachments;
+  std::vector<PackBody> bodies = {};    ///< reports number them in this order
 
   /// Throws UsageError naming what is missing or does not exist: robot, rods, attachments, links and holds; a hold attached twice
   /// or one that slides; dead moments (their work depends on the way); and as RodProblem::check() does.

@@ -23,6 +23,8 @@ struct PackDemands {
   Demand force = {60, 30};   ///< N, of a hold on its rod
   Demand twist = {};         ///< rad/m, change against the unstressed rod
   Demand curvature = {};     ///< 1/m, at the middle of segments
+  double clearance = -1;        ///< m, of the rods from all bodies; negative: bodies are not looked at
+  double robot_clearance = -1;  ///< m, of the links' bodies from the fixed ones; negative: not looked at
 
   /// Throws UsageError for limits that are negative or not numbers, and for scales that are not positive.
   void check() const;
