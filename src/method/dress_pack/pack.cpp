@@ -3,6 +3,7 @@
 #include <set>
 
 #include "base/error.h"
+#include "base/number_text.h"
 
 namespace tendril::dress_pack {
 namespace {
@@ -26,6 +27,17 @@ void check_one(const PackProblem& pack, std::size_t k) {
 }
 
 }  // namespace
+
+std::string PackProblem::rod_name(int rod) const {
+  return rod < static_cast<int>(names.size()) ? names[rod] : "rod " + std::to_string(rod + 1);
+}
+
+std::string PackProblem::attachment_name(int attachment) const {
+  const Attachment& a = attachments[attachment];
+  const double at = rods[a.rod].holds[a.hold].at, length = rods[a.rod].rod.length;
+  const std::string place = at == 0 ? "start" : at == length ? "finish" : number_text(at);
+  return rod_name(a.rod) + "." + place;
+}
 
 void PackProblem::check() const {
   if (!robot) throw UsageError("dress pack: no robot");

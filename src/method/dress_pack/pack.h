@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "geometry/surroundings.h"
@@ -31,6 +32,10 @@ struct PackProblem {
   std::vector<RodProblem> rods;
   std::vector<Attachment> attachments;
   std::vector<PackBody> bodies = {};    ///< reports number them in this order
+  std::vector<std::string> names = {};  ///< of the rods, for messages; may be empty
+
+  std::string rod_name(int rod) const;                ///< "hose"; without names "rod 1"
+  std::string attachment_name(int attachment) const;  ///< "hose.start", "hose.finish", "hose.0.4": an arc length in m
 
   /// Throws UsageError naming what is missing or does not exist: robot, rods, attachments, links and holds; a hold attached twice
   /// or one that slides; dead moments (their work depends on the way); and as RodProblem::check() does.
