@@ -19,13 +19,8 @@ Schema axes_options() {
 std::vector<std::string> dialect_names() { return {"rapid", "krl", "urscript", "ls", "csv"}; }
 
 Schema program_options() {
-  return Schema{
-             option<std::string>("dialect", "", "RAPID (ABB), KRL (KUKA), URScript, LS (FANUC), or rows of numbers").required().one_of(dialect_names()),
-             option<std::string>("name", "", "Of the program").preset("path"),
-             option<double>("speed", "", "Share of the joints' velocities").above(0).at_most(1).preset(0.5),
-             option<double>("zone", "m", "How near to each point but the first and last the corner may be cut; 0: stop at each").at_least(0).preset(0),
-         } +
-         axes_options();
+  return Schema{option<std::string>("dialect", "", "RAPID (ABB), KRL (KUKA), URScript, LS (FANUC), or rows of numbers").required().one_of(dialect_names())} +
+         program_form();
 }
 
 Schema read_options() {
@@ -36,9 +31,9 @@ Schema read_options() {
          axes_options();
 }
 
-AxisMap axes_of(const RobotValue& value, const Options& o) {
+AxisMap axes_of(const Robot& robot, const Options& o) {
   if (!o.has("sign") && !o.has("zero") && !o.has("coupling")) return {};
-  const int joints = value.robot->size();
+  const int joints = robot.size();
   AxisMap map = AxisMap::same(joints);
   map.sign = o.maybe<Numbers>("sign").value_or(map.sign);
   map.zero = o.maybe<Numbers>("zero").value_or(map.zero);
@@ -48,18 +43,12 @@ AxisMap axes_of(const RobotValue& value, const Options& o) {
 }
 
 std::string program(const RobotValue& value, const JointPath& path, const Options& o) {
-  ProgramOptions options;
-  options.dialect = dialect_named(o.get<std::string>("dialect"));
-  options.name = o.get<std::string>("name");
-  options.speed = o.get<double>("speed");
-  options.zone = o.get<double>("zone");
-  options.axes = axes_of(value, o);
-  return write_program(*value.robot, path, options);
+  return program_text(*value.robot, path, o.get<std::string>("dialect"), o);
 }
 
 JointPath read(const RobotValue& value, const std::string& path, const Options& o) {
   const Dialect dialect = o.has("dialect") ? dialect_named(o.get<std::string>("dialect")) : dialect_of_file(path);
-  return read_program_file(*value.robot, path, dialect, axes_of(value, o), o.get<std::string>("unit") == "deg");
+  return read_program_file(*value.robot, path, dialect, axes_of(*value.robot, o), o.get<std::string>("unit") == "deg");
 }
 
 const char* const path_example =
@@ -67,6 +56,25 @@ const char* const path_example =
     "local path = {{0, 0, 0, 0, 0.5, 0}, {0.4, 0.2, 0, 0, 0.5, 0}}\n";
 
 }  // namespace
+
+Schema program_form() {
+  return Schema{
+             option<std::string>("name", "", "Of the program").preset("path"),
+             option<double>("speed", "", "Share of the joints' velocities").above(0).at_most(1).preset(0.5),
+             option<double>("zone", "m", "How near to each point but the first and last the corner may be cut; 0: stop at each").at_least(0).preset(0),
+         } +
+         axes_options();
+}
+
+std::string program_text(const Robot& robot, const std::vector<std::vector<double>>& path, const std::string& dialect, const Options& o) {
+  ProgramOptions options;
+  options.dialect = dialect_named(dialect);
+  options.name = o.get<std::string>("name");
+  options.speed = o.get<double>("speed");
+  options.zone = o.get<double>("zone");
+  options.axes = axes_of(robot, o);
+  return write_program(robot, path, options);
+}
 
 void add_programs(Class<RobotValue>& bound) {
   bound
