@@ -15,6 +15,11 @@ Eigen::AlignedBox3d placed(const Eigen::AlignedBox3d& box, const Frame& pose) {
   return {middle - half, middle + half};
 }
 
+void check(const Frame& pose) {
+  if (!all_finite(pose.at) || !(std::abs(pose.rotation.norm() - 1) < 1e-6))
+    throw UsageError("obstacle: the pose is not a frame; a finite place and a unit rotation expected");
+}
+
 }  // namespace
 
 int Surroundings::add(Obstacle obstacle) {
@@ -23,17 +28,24 @@ int Surroundings::add(Obstacle obstacle) {
   if (!mesh) check(std::get<Solid>(obstacle.shape), "obstacle");
   if (!std::isfinite(obstacle.clearance) || obstacle.clearance < 0)
     throw UsageError("obstacle: the clearance is " + std::to_string(obstacle.clearance) + " m; at least 0 expected");
-  const Quat& turn = obstacle.pose.rotation;
-  if (!all_finite(obstacle.pose.at) || !(std::abs(turn.norm() - 1) < 1e-6))
-    throw UsageError("obstacle: the pose is not a frame; a finite place and a unit rotation expected");
-  obstacle.pose.rotation.normalize();
+  check(obstacle.pose);
   const TriangleSurface* surface = mesh ? mesh->get() : nullptr;
-  const Eigen::AlignedBox3d box = surface ? surface->box() : tendril::box_of(std::get<Solid>(obstacle.shape));
-  const Eigen::AlignedBox3d in_world = placed(box, obstacle.pose);
-  const Mat3 axes = obstacle.pose.rotation.toRotationMatrix();
   largest_clearance_ = std::max(largest_clearance_, obstacle.clearance);
-  entries_.push_back({std::move(obstacle), in_world, axes, surface});
+  entries_.push_back({std::move(obstacle), {}, Mat3::Identity(), surface});
+  entries_.back().place();
   return size() - 1;
+}
+
+void Surroundings::move(int index, const Frame& pose) {
+  check(pose);
+  entries_[index].obstacle.pose = pose;
+  entries_[index].place();
+}
+
+void Surroundings::Entry::place() {
+  obstacle.pose.rotation.normalize();
+  box = placed(surface ? surface->box() : tendril::box_of(std::get<Solid>(obstacle.shape)), obstacle.pose);
+  axes = obstacle.pose.rotation.toRotationMatrix();
 }
 
 ClosestPoint Surroundings::closest_on(int index, const Vec3& p, double limit, double most) const {

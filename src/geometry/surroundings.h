@@ -37,6 +37,9 @@ class Surroundings final : public ContactField {
   int size() const { return static_cast<int>(entries_.size()); }
   const Obstacle& obstacle(int index) const { return entries_[index].obstacle; }
 
+  /// Puts an obstacle somewhere else. Not while another thread asks. Throws UsageError for a pose that is not a frame.
+  void move(int index, const Frame& pose);
+
   ClosestPoint closest(const Vec3& p, double limit) const override;
   void terms(const Vec3& p, double range, std::vector<DistanceTerm>& out) const override;
   std::optional<RayHit> ray(const Vec3& a, const Vec3& b) const override;
@@ -62,6 +65,7 @@ class Surroundings final : public ContactField {
     Eigen::AlignedBox3d box;  ///< in world axes, m
     Mat3 axes;                ///< the pose's rotation: columns are the obstacle's axes
     const TriangleSurface* surface;  ///< null for a solid
+    void place();  ///< box and axes from the obstacle's pose
     Vec3 to_local(const Vec3& p) const { return axes.transpose() * (p - obstacle.pose.at); }
     Vec3 to_world(const Vec3& p) const { return axes * p + obstacle.pose.at; }
     double thickness(double most) const { return std::min(obstacle.clearance, most); }

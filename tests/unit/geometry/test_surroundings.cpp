@@ -66,6 +66,30 @@ TEST_CASE("one surface in several places shares one tree, built by the first que
   CHECK_FALSE(surface->has_topology());
 }
 
+TEST_CASE("an obstacle that is moved answers as one put there at first", "[surroundings]") {
+  Random random(92);
+  Surroundings moved;
+  moved.add({share(box_mesh({0.3, 0.2, 0.1}, 3)), {random.point(2), random.rotation()}, 0});
+  moved.add({Solid(Cylinder{0.2, 0.5}), {random.point(2), random.rotation()}, 0});
+  for (int round = 0; round < 10; ++round) {
+    Surroundings fresh;
+    for (int k = 0; k < 2; ++k) {
+      Obstacle there = moved.obstacle(k);
+      there.pose = {random.point(1), random.rotation()};
+      moved.move(k, there.pose);
+      fresh.add(there);
+      CHECK(moved.box_of(k).min() == fresh.box_of(k).min());
+      CHECK(moved.box_of(k).max() == fresh.box_of(k).max());
+    }
+    const Vec3 p = random.point(1.5), q = random.point(1.5);
+    CHECK(moved.closest(p, 9).distance == fresh.closest(p, 9).distance);
+    CHECK(moved.closest(p, 9).point == fresh.closest(p, 9).point);
+    CHECK(moved.ray(p, q).has_value() == fresh.ray(p, q).has_value());
+  }
+  CHECK_THROWS_WITH(moved.move(0, {{0, std::nan(""), 0}, Quat::Identity()}), Catch::Matchers::Contains("the pose is not a frame"));
+  CHECK_THROWS_WITH(moved.move(1, {{0, 0, 0}, Quat(1, 1, 0, 0)}), Catch::Matchers::Contains("the pose is not a frame"));
+}
+
 TEST_CASE("rays meet the nearest obstacle in world axes", "[surroundings]") {
   Surroundings field;
   field.add({share(box_mesh({1, 1, 1})), {{5, 0, 0}, Quat(Eigen::AngleAxisd(units::pi / 4, Vec3::UnitZ()))}, 0});
