@@ -7,7 +7,7 @@
 #include "binding/robot_classes.h"
 #include "binding/scene_classes.h"
 #include "robot/load_robot.h"
-#include "scene/placed_obstacle.h"
+#include "scene/placed_robot.h"
 
 namespace tendril::lua {
 namespace {
@@ -147,19 +147,7 @@ std::vector<std::array<std::string, 3>> pairs_of(lua_State* L, RobotValue& value
 MeshValue mesh_of_link(const RobotValue& value, const std::string& name) {
   const Link& link = value.robot->links()[value.robot->link(name)];
   const auto& shapes = link.visual.empty() ? link.collision : link.visual;
-  Mesh joined;
-  joined.name = name;
-  for (const LinkShape& shape : shapes) {
-    Obstacle body;
-    if (const auto* mesh = std::get_if<std::shared_ptr<const LinkMesh>>(&shape.shape)) body.shape = (*mesh)->surface();
-    else body.shape = std::get<Solid>(shape.shape);
-    PlacedObstacle drawn;
-    drawn.body = body;
-    const Mesh part = drawn_mesh(drawn, {})->moved(shape.pose.at, shape.pose.rotation);
-    const int first = static_cast<int>(joined.vertices.size());
-    joined.vertices.insert(joined.vertices.end(), part.vertices.begin(), part.vertices.end());
-    for (const auto& t : part.triangles) joined.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
-  }
+  Mesh joined = joined_mesh(shapes, name);
   if (joined.triangles.empty()) throw UsageError("robot:mesh: the link '" + name + "' has no body");
   return make_mesh_value(std::move(joined));
 }

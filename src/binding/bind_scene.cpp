@@ -2,6 +2,7 @@
 #include "binding/bind_branch.h"
 #include "binding/bind_motion.h"
 #include "binding/bind_obstacle.h"
+#include "binding/bind_placed_robot.h"
 #include "binding/examples.h"
 #include "binding/lua_class.h"
 #include "binding/open.h"
@@ -142,8 +143,9 @@ std::vector<std::string> obstacle_names(const Scene& scene) {
 }
 
 void bind_scene_class(lua_State* L) {
-  Class<Scene> world(L, "The world: gravity, obstacles, rods and branch points");
+  Class<Scene> world(L, "The world: gravity, obstacles, robots, rods and branch points");
   add_branch_to(world);
+  add_robots_to(world);
   add_motion_to(world);
   world.property("gravity", "m/s^2", "Acceleration", [](const Scene& s) { return s.gravity(); })
       .property("rods", "", "Names of the rods", rod_names)
@@ -170,7 +172,7 @@ void bind_scene_class(lua_State* L) {
                 s->rod(name);
                 return PlacedRodHandle{s, name};
               })
-      .method("remove", {.takes = {"name"}, .does = "Removes a rod, a branch point or an obstacle.",
+      .method("remove", {.takes = {"name"}, .does = "Removes a rod, a branch point, an obstacle, or a robot that carries no rod.",
                          .example = with_hose("s:remove(\"hose\")")},
               [](std::shared_ptr<Scene> s, const std::string& name) {
                 s->remove(name);

@@ -167,7 +167,7 @@ void read_shown(lua_State* L, const Options& o, View& view) {
 View make_view(lua_State* L, const Options& o) {
   View view;
   read_shown(L, o, view);
-  const bool obstacles = view.equilibrium ? !view.equilibrium->obstacles.empty() : !view.scene->obstacles().empty();
+  const bool obstacles = view.equilibrium ? !view.equilibrium->obstacles.empty() : !view.scene->bodies().empty();
   view.wish.colour = obstacles ? RodColour::clearance : RodColour::curvature;
   if (o.has("color")) read_colour(o, view.equilibrium.get(), view.wish);
   if (const MeshValue* envelope = o.find<MeshValue>("envelope")) view.wish.envelope = envelope->surface;
@@ -214,7 +214,7 @@ void bind_view(lua_State* L) {
               save_view)
       .tostring([](const View& v) {
         return Card("view").row("rods", std::to_string(v.equilibrium ? v.equilibrium->rods.size() : 0))
-            .row("obstacles", std::to_string(v.equilibrium ? v.equilibrium->obstacles.size() : v.scene->obstacles().size()))
+            .row("obstacles", std::to_string(v.equilibrium ? v.equilibrium->obstacles.size() : v.scene->bodies().size()))
             .text();
       });
   Module(L, "view", "Pictures")

@@ -186,7 +186,7 @@ void add_solved(const SceneEquilibrium& eq, const PictureWish& wish, Picture& pi
 
 void compose_check(const Scene& scene, const SceneEquilibrium* eq, const PictureWish& wish) {
   std::vector<std::string> names;
-  for (const PlacedObstacle& obstacle : eq ? eq->obstacles : scene.obstacles()) names.push_back(obstacle.name);
+  for (const PlacedObstacle& obstacle : eq ? eq->obstacles : scene.bodies()) names.push_back(obstacle.name);
   if (!wish.ghost) return;
   for (const std::string& name : *wish.ghost)
     if (std::find(names.begin(), names.end(), name) == names.end())
@@ -199,7 +199,7 @@ Picture compose_picture(const Scene& scene, const SceneEquilibrium* eq, const Pi
   picture.views = wish.views;
   picture.width = wish.width;
   picture.height = wish.height;
-  Shown shown{eq ? eq->obstacles : scene.obstacles(), eq, {}};
+  Shown shown{eq ? eq->obstacles : scene.bodies(), eq, {}};
   const bool shell_coloured = wish.envelope && wish.colour == RodColour::clearance && !shown.obstacles.empty();
   PictureWish rod_wish = wish;
   if (shell_coloured) rod_wish.colour = RodColour::plain;

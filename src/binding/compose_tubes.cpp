@@ -63,14 +63,14 @@ double shown_gap(double gap, double required, double radius) {
 }
 
 /// Smallest of gap minus `required` over the obstacles, or the plain gap to the nearest when all require the same. mm.
-double gap_at(const SceneEquilibrium& eq, const Vec3& p, double radius, std::optional<double> alike) {
+double gap_at(const SceneEquilibrium& eq, const SolvedRod& rod, double s, const Vec3& p, double radius, std::optional<double> alike) {
   double least = std::numeric_limits<double>::infinity();
   if (alike) {
-    const ClosestPoint closest = eq.closest(p);
+    const ClosestPoint closest = eq.closest(rod, s, p);
     if (closest.obstacle >= 0) least = shown_gap(closest.distance - radius, *alike, radius) + *alike;
   } else {
     for (int k = 0; k < static_cast<int>(eq.obstacles.size()); ++k) {
-      const ClosestPoint closest = eq.closest(p, k);
+      const ClosestPoint closest = eq.closest(rod, s, p, k);
       if (closest.obstacle >= 0)
         least = std::min(least, shown_gap(closest.distance - radius, eq.obstacles[k].clearance, radius));
     }
@@ -98,7 +98,7 @@ PictureTube compose_tube(const SceneEquilibrium& eq, const SolvedRod& rod, const
     if (design.parts.size() > 1) tube.radii.push_back(radius);
     if (by_profile) tube.values.push_back(interpolated(profile.s, profile.value, sample.s));
     if (wish.colour == RodColour::clearance && !eq.obstacles.empty())
-      tube.values.push_back(gap_at(eq, sample.frame.at, radius, alike));
+      tube.values.push_back(gap_at(eq, rod, sample.s, sample.frame.at, radius, alike));
   }
   return tube;
 }

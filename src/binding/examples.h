@@ -18,4 +18,11 @@ inline std::string with_hose(const std::string& rest) {
 /// ... and its equilibrium `eq`.
 inline std::string with_equilibrium(const std::string& rest) { return with_hose("local eq = s:solve{}\n" + rest); }
 
+/// `rest` after a scene `s` with a six-axis robot `arm`.
+inline std::string with_robot(const std::string& rest) {
+  return "local s = scene.new{gravity = {0, 0, -9.81}}\n"
+         "local arm = s:robot(\"arm\", robot.load(\"builtin:six_axis\"))\n" +
+         rest;
+}
+
 }  // namespace tendril::lua

@@ -15,6 +15,7 @@ void open_tendril(lua_State* L) {
   bind_branch(L);
   bind_equilibrium(L);
   bind_robot(L);
+  bind_placed_robot(L);
   bind_gradient(L);
   bind_method(L);
   bind_view(L);

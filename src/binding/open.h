@@ -17,6 +17,7 @@ void bind_robot(lua_State* L);
 void bind_curve(lua_State* L);
 void bind_scene(lua_State* L);
 void bind_branch(lua_State* L);
+void bind_placed_robot(lua_State* L);
 void bind_equilibrium(lua_State* L);
 void bind_gradient(lua_State* L);
 void bind_method(lua_State* L);

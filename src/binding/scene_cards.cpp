@@ -80,6 +80,7 @@ std::string describe_placed(const PlacedRod& rod) {
                                                            : "orientation held";
     std::string note = "at " + place(hold.frame.at);
     if (hold.turns != 0) note += ", " + plain_number(hold.turns) + " extra turns";
+    if (const Attachment* attached = rod.attachment_at(hold.at)) note += ", on robot '" + attached->robot + "'";
     card.row(rod.describe(hold.at), what, note);
   }
   for (const PointLoad& load : rod.loads()) card.row("load at " + rod.describe(load.at), load.force.norm(), "N");
@@ -95,6 +96,8 @@ std::string describe_scene(const Scene& scene) {
   for (const auto& branch : scene.branches())
     card.row("branch point '" + branch->name + "'", count(branch->places.size(), "section", "sections"),
              branch->position || branch->orientation ? "held" : "free");
+  for (const PlacedRobot& robot : scene.robots())
+    card.row("robot '" + robot.name + "'", robot.robot->name(), count(robot.bodies->size(), "solid link", "solid links"));
   for (const PlacedObstacle& obstacle : scene.obstacles()) {
     const std::size_t triangles = obstacle.triangles();
     card.row("obstacle '" + obstacle.name + "'", triangles ? count(triangles, "triangle", "triangles") : "solid",

@@ -30,6 +30,13 @@ struct PlacedBranchHandle {
   PlacedBranch& branch() const { return scene->branch(name); }
 };
 
+/// A robot of a scene, by name.
+struct PlacedRobotHandle {
+  std::shared_ptr<Scene> scene;
+  std::string name;
+  const PlacedRobot& robot() const { return scene->robot(name); }
+};
+
 /// One rod of an equilibrium.
 struct SolvedRodHandle {
   std::shared_ptr<SceneEquilibrium> equilibrium;
@@ -73,6 +80,7 @@ template <> inline constexpr const char* class_name<Scene> = "scene";
 template <> inline constexpr const char* class_name<SolidValue> = "solid";
 template <> inline constexpr const char* class_name<PlacedRodHandle> = "placed_rod";
 template <> inline constexpr const char* class_name<PlacedBranchHandle> = "placed_branch";
+template <> inline constexpr const char* class_name<PlacedRobotHandle> = "placed_robot";
 template <> inline constexpr const char* class_name<SceneEquilibrium> = "equilibrium";
 template <> inline constexpr const char* class_name<SceneMotion> = "motion";
 template <> inline constexpr const char* class_name<SampledMotion> = "sampled_motion";

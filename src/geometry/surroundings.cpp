@@ -1,6 +1,7 @@
 #include "geometry/surroundings.h"
 
 #include <cmath>
+#include <limits>
 
 #include "base/error.h"
 
@@ -129,6 +130,19 @@ std::optional<RayHit> Surroundings::ray(const Vec3& a, const Vec3& b) const {
 std::string Surroundings::name(int obstacle) const {
   const std::string& own = entries_[obstacle].obstacle.name;
   return own.empty() ? ContactField::name(obstacle) : "obstacle '" + own + "'";
+}
+
+std::shared_ptr<const ContactField> Surroundings::without(const std::vector<int>& obstacles) const {
+  auto rest = std::make_shared<Surroundings>(*this);
+  for (const int k : obstacles) {
+    if (k < 0 || k >= size())
+      throw UsageError("surroundings: there is no obstacle of the number " + std::to_string(k) + " to leave out, there are " +
+                       std::to_string(size()));
+    // Nothing comes near a box that is infinitely far away.
+    const Vec3 nowhere = Vec3::Constant(std::numeric_limits<double>::infinity());
+    rest->entries_[k].box = {nowhere, nowhere};
+  }
+  return rest;
 }
 
 Eigen::AlignedBox3d Surroundings::box() const {

@@ -48,6 +48,7 @@ class Surroundings final : public ContactField {
   ClosestPoint closest_kept(const Vec3& p, double limit, double most) const override;
   void terms_kept(const Vec3& p, double range, double most, std::vector<DistanceTerm>& out) const override;
   std::string name(int obstacle) const override;
+  std::shared_ptr<const ContactField> without(const std::vector<int>& obstacles) const override;  ///< shares the meshes
 
   /// True when closest_kept(p, limit, most) finds anything: cheaper, as it stops at the first surface that is near enough.
   bool within_kept(const Vec3& p, double limit, double most) const;

@@ -28,6 +28,7 @@ void explain_holds(const PlacedRod& rod, std::vector<ExplainedItem>& out) {
                        : hold.position                     ? "pinned"
                                                            : "turned (orientation only)";
     text += (text.empty() ? "" : ", ") + std::string(what) + " at " + rod.describe(hold.at);
+    if (const Attachment* attached = rod.attachment_at(hold.at)) text += " on robot '" + attached->robot + "'";
     if (hold.turns != 0) turns = hold.turns;
   }
   for (const auto& [end, name] : {std::pair{0.0, "start"}, std::pair{rod.rod().length, "finish"}})
@@ -52,7 +53,7 @@ void explain_design(const Rod& rod, const std::string& name, std::vector<Explain
 
 void explain_clearance(const Scene& scene, const PlacedRod& rod, const SolveOptions& options, std::vector<ExplainedItem>& out) {
   double largest = 0;
-  for (const PlacedObstacle& obstacle : scene.obstacles()) largest = std::max(largest, obstacle.clearance);
+  for (const PlacedObstacle& obstacle : scene.bodies()) largest = std::max(largest, obstacle.clearance);
   const bool push = options.clearance == ClearanceRule::push;
   out.push_back({rod.name(), "kept clearance", push && largest > 0,
                  largest == 0 ? "no obstacle requires any"
@@ -71,7 +72,7 @@ void explain_terms(const Scene& scene, const PlacedRod& rod, std::vector<Explain
                  rod.loads().empty() ? "none given" : counted(rod.loads().size(), "dead load", "dead loads")});
   std::string far;
   std::size_t near = 0;
-  for (const PlacedObstacle& obstacle : scene.obstacles())
+  for (const PlacedObstacle& obstacle : scene.bodies())
     if (can_reach(rod, obstacle))
       ++near;
     else
@@ -100,7 +101,7 @@ void explain_method(const PlacedRod& rod, const SolveOptions& options, std::vect
 
 void explain_trees(const Scene& scene, std::vector<ExplainedItem>& out) {
   std::size_t meshes = 0, built = 0, triangles = 0;
-  for (const PlacedObstacle& obstacle : scene.obstacles()) {
+  for (const PlacedObstacle& obstacle : scene.bodies()) {
     meshes += obstacle.triangles() > 0;
     built += obstacle.has_tree();
     if (obstacle.has_tree()) triangles += obstacle.triangles();
@@ -108,15 +109,15 @@ void explain_trees(const Scene& scene, std::vector<ExplainedItem>& out) {
   std::string why = std::to_string(built) + " of " + std::to_string(meshes) + " built, over " +
                     counted(triangles, "triangle", "triangles");
   if (built == 0) why = "not built yet; the first solve builds those that a rod can reach";
-  if (meshes == 0) why = scene.obstacles().empty() ? "no obstacles, so none is built" : "only solids, which need none";
+  if (meshes == 0) why = scene.bodies().empty() ? "no obstacles, so none is built" : "only solids, which need none";
   out.push_back({"scene", "distance trees", built > 0, why});
 }
 
 void explain_pairs(const Scene& scene, std::vector<ExplainedItem>& out) {
-  const std::size_t all = scene.rods().size() * scene.obstacles().size();
+  const std::size_t all = scene.rods().size() * scene.bodies().size();
   std::size_t near = 0;
   for (const auto& rod : scene.rods())
-    for (const PlacedObstacle& obstacle : scene.obstacles()) near += can_reach(*rod, obstacle);
+    for (const PlacedObstacle& obstacle : scene.bodies()) near += can_reach(*rod, obstacle);
   out.push_back({"scene", "collision pairs", near > 0,
                  all == 0 ? "no pair of a rod and an obstacle"
                           : std::to_string(near) + " of " + counted(all, "pair", "pairs") + " of a rod and an obstacle; " +
@@ -132,6 +133,29 @@ void explain_branch(const Scene& scene, const PlacedBranch& branch, std::vector<
                      : branch.orientation                  ? "turned (orientation only)"
                                                            : "free: six unknowns";
   out.push_back({branch.name, "branch point", true, "joins " + text + "; " + held});
+}
+
+void explain_robot(const Scene& scene, const PlacedRobot& robot, std::vector<ExplainedItem>& out) {
+  std::string carried;
+  for (const auto& rod : scene.rods())
+    for (const Attachment& a : rod->attachments())
+      if (a.robot == robot.name)
+        carried += (carried.empty() ? "" : ", ") + ("'" + rod->name() + "' at " + rod->describe(a.at) + " on ") + robot.robot->links()[a.link].name;
+  out.push_back({robot.name, "robot", true,
+                 robot.robot->name() + ", " + counted(robot.robot->size(), "joint", "joints") + "; " +
+                     (carried.empty() ? "carries no rod" : "carries " + carried)});
+  std::string near;
+  std::size_t far = 0;
+  const std::vector<PlacedObstacle>& bodies = scene.bodies();
+  for (const LinkBody& body : *robot.bodies) {
+    const auto placed = std::find_if(bodies.begin(), bodies.end(), [&](const PlacedObstacle& o) { return o.name == body.solid.name; });
+    const bool reached = std::any_of(scene.rods().begin(), scene.rods().end(), [&](const auto& rod) { return can_reach(*rod, *placed); });
+    if (reached) near += (near.empty() ? "" : ", ") + robot.robot->links()[body.link].name;
+    else ++far;
+  }
+  out.push_back({robot.name, "solid links", !near.empty(),
+                 near.empty() ? "no rod can reach any of " + counted(far, "link", "links")
+                              : near + (far > 0 ? "; " + std::to_string(far) + " out of reach" : "")});
 }
 
 }  // namespace
@@ -153,6 +177,7 @@ Explanation explain(const Scene& scene, const SolveOptions& options) {
     explain_clearance(scene, *rod, options, out);
     explain_method(*rod, options, out);
   }
+  for (const PlacedRobot& robot : scene.robots()) explain_robot(scene, robot, out);
   for (const auto& branch : scene.branches()) explain_branch(scene, *branch, out);
   return result;
 }

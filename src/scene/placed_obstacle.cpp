@@ -105,6 +105,7 @@ bool PlacedObstacle::has_tree() const {
 }
 
 std::shared_ptr<const Mesh> drawn_mesh(const PlacedObstacle& obstacle, const Eigen::AlignedBox3d& around) {
+  if (obstacle.drawn) return obstacle.drawn();
   if (const auto* shared = std::get_if<std::shared_ptr<const TriangleSurface>>(&obstacle.body.shape))
     return {*shared, &(*shared)->mesh()};
   const Solid& solid = std::get<Solid>(obstacle.body.shape);

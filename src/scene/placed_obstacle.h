@@ -1,6 +1,7 @@
 // Something solid in the world: its shape and place, and what the rods owe it.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -17,6 +18,8 @@ struct PlacedObstacle {
   double clearance = 0;          ///< m, required: judged in reports and pictures, kept by contact where SolveOptions say so
   Preference prefer = Preference::neutral;
   bool clip = true;              ///< rods may be fastened to it
+  bool of_robot = false;         ///< a robot's link
+  std::function<std::shared_ptr<const Mesh>()> drawn = {};  ///< what pictures show instead, in the body's axes; empty: the body
 
   /// Throws UsageError for an empty name, a missing mesh, or a clearance that is negative or not finite.
   void check() const;
@@ -25,7 +28,7 @@ struct PlacedObstacle {
   bool has_tree() const;          ///< a mesh whose distance tree has been built
 };
 
-/// The obstacle as triangles in its own axes, for drawing: a mesh as it is, a solid with round parts in 48 sides, a
+/// The obstacle as triangles in its own axes, for drawing: what it says itself, else a mesh as it is, a solid with round parts in 48 sides, a
 /// half-space as a square of its plane around what `around` (m, world axes) lets one see. The pointer shares the mesh.
 std::shared_ptr<const Mesh> drawn_mesh(const PlacedObstacle& obstacle, const Eigen::AlignedBox3d& around);
 

@@ -56,7 +56,7 @@ const Hold* PlacedRod::hold_at(double at) const {
   return found == holds_.end() ? nullptr : &*found;
 }
 
-void PlacedRod::hold(const Hold& wanted) {
+void PlacedRod::check_hold(const Hold& wanted) const {
   check_place("placed_rod:hold", wanted.at);
   if (!all_finite(wanted.frame.at) || !all_finite(wanted.frame.rotation.coeffs()))
     throw UsageError("placed_rod:hold: the frame for '" + name_ + "' at " + describe(wanted.at) + " has numbers that are not finite");
@@ -64,10 +64,17 @@ void PlacedRod::hold(const Hold& wanted) {
   if (!wanted.position && !wanted.orientation)
     throw UsageError("placed_rod:hold: neither position nor orientation of '" + name_ + "' at " + describe(wanted.at) +
                      " is held; use release to remove a hold");
-  const auto old = find(wanted.at);
   if (wanted.slide && (wanted.at <= same_place * rod_.length || wanted.at >= (1 - same_place) * rod_.length))
     throw UsageError("placed_rod:clip: '" + name_ + "' cannot slide through a clip at " + describe(wanted.at) +
                      "; give the arc length inside the rod where the search shall begin");
+}
+
+void PlacedRod::hold(const Hold& wanted) {
+  check_hold(wanted);
+  if (const Attachment* attached = attachment_at(wanted.at))
+    throw UsageError("placed_rod:hold: '" + name_ + "' is attached to '" + attached->robot + "' at " + describe(wanted.at) +
+                     "; release it there first");
+  const auto old = find(wanted.at);
   if (old == holds_.end()) {
     holds_.push_back(wanted);
     return;
@@ -99,6 +106,34 @@ void PlacedRod::release(double at) {
   const auto found = find(at);
   if (found == holds_.end()) throw UsageError("placed_rod:release: '" + name_ + "' is not held at " + describe(at));
   holds_.erase(found);
+  std::erase_if(attachments_, [&](const Attachment& a) { return std::abs(a.at - at) <= same_place * rod_.length; });
+}
+
+void PlacedRod::attach(const Attachment& attachment, const Frame& frame) {
+  const Hold hold{attachment.at, frame, attachment.position, attachment.orientation, attachment.turns, attachment.slide};
+  check_hold(hold);
+  if (const Attachment* there = attachment_at(attachment.at))
+    throw UsageError("scene:attach: '" + name_ + "' is attached to '" + there->robot + "' at " + describe(there->at) +
+                     " already; release it there first");
+  if (hold_at(attachment.at))
+    throw UsageError("scene:attach: '" + name_ + "' is held at " + describe(attachment.at) + " already; release it there first");
+  holds_.push_back(hold);
+  attachments_.push_back(attachment);
+}
+
+const Attachment* PlacedRod::attachment_at(double at) const {
+  for (const Attachment& a : attachments_)
+    if (std::abs(a.at - at) <= same_place * rod_.length) return &a;
+  return nullptr;
+}
+
+void PlacedRod::follow(const std::string& robot, const std::function<Frame(int link)>& link_frame) {
+  for (const Attachment& a : attachments_) {
+    if (a.robot != robot) continue;
+    Frame& frame = find(a.at)->frame;
+    frame = link_frame(a.link) * a.in_link;
+    frame.rotation.normalize();
+  }
 }
 
 void PlacedRod::load(const PointLoad& load) {

@@ -1,11 +1,13 @@
 // A rod in the world: its design, where it is held and what pulls on it.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "scene/attachment.h"
 #include "statics/problem.h"
 
 namespace tendril {
@@ -29,13 +31,22 @@ class PlacedRod {
   /// Holds the section at `hold.at`. At a place that is held already: what the two holds both fix must agree, then the
   /// new one stands (so turns, position and orientation can be changed); a position hold and an orientation hold at one
   /// place become one hold. Throws UsageError for a place outside the rod, non-finite numbers, a hold of nothing, and
-  /// a hold that contradicts the one already there.
+  /// a hold that contradicts the one already there, or is attached to a robot.
   void hold(const Hold& hold);
 
   /// The hold at arc length `at`, or null.
   const Hold* hold_at(double at) const;
 
-  /// Removes the hold at arc length `at`. Throws UsageError when there is none.
+  /// A hold that a link carries; `frame`: where it is now, in world axes. Throws UsageError as hold() does, and for a place that is
+  /// held already.
+  void attach(const Attachment& attachment, const Frame& frame);
+  const std::vector<Attachment>& attachments() const { return attachments_; }
+  /// What is attached at arc length `at`, or null.
+  const Attachment* attachment_at(double at) const;
+  /// Brings what is attached to `robot` to where `link_frame` (of a link's number, in world axes) has it.
+  void follow(const std::string& robot, const std::function<Frame(int link)>& link_frame);
+
+  /// Removes the hold at arc length `at`, attached or not. Throws UsageError when there is none.
   void release(double at);
 
   /// Adds a dead load. Throws UsageError for a place outside the rod or non-finite numbers.
@@ -48,11 +59,13 @@ class PlacedRod {
  private:
   void check_place(const char* who, double at) const;
   std::vector<Hold>::iterator find(double at);
+  void check_hold(const Hold& hold) const;
 
   std::string name_;
   Rod rod_;
   std::vector<Hold> holds_;
   std::vector<PointLoad> loads_;
+  std::vector<Attachment> attachments_;
 };
 
 }  // namespace tendril

@@ -31,6 +31,8 @@ Scene::Scene(const Vec3& gravity) : gravity_(gravity) {
 Scene Scene::without_rods() const {
   Scene bare(gravity_);
   bare.obstacles_ = obstacles_;
+  bare.robots_ = robots_;
+  bare.bodies_ = bodies_;
   bare.surroundings_ = surroundings_;
   bare.fields_ = fields();
   return bare;
@@ -47,13 +49,19 @@ void Scene::check_free(std::string_view name, const char* who) const {
   for (const auto& branch : branches_)
     if (branch->name == name)
       throw UsageError(std::string(who) + ": the scene already has a branch point '" + text + "'; remove it first");
+  for (const PlacedRobot& robot : robots_) {
+    if (robot.name == name)
+      throw UsageError(std::string(who) + ": the scene already has a robot '" + text + "'; remove it first");
+    for (const LinkBody& body : *robot.bodies)
+      if (body.solid.name == name) throw UsageError(std::string(who) + ": '" + text + "' is a link of robot '" + robot.name + "'");
+  }
 }
 
 void Scene::add(PlacedObstacle obstacle) {
   check_free(obstacle.name, "scene:obstacle");
   obstacle.check();
   obstacles_.push_back(std::move(obstacle));
-  surroundings_.reset();
+  forget_bodies();
 }
 
 PlacedRod& Scene::add(PlacedRod rod) {
@@ -64,11 +72,15 @@ PlacedRod& Scene::add(PlacedRod rod) {
 
 PlacedBranch& Scene::join(std::string name, const std::vector<BranchPlace>& places, const std::optional<Frame>& held) {
   check_free(name, "scene:branch");
-  for (const BranchPlace& place : places)
+  for (const BranchPlace& place : places) {
+    if (const Attachment* attached = place.rod->attachment_at(place.at))
+      throw UsageError("scene:branch: '" + place.rod->name() + "' is attached to robot '" + attached->robot + "' at " +
+                       place.rod->describe(place.at) + "; release it there first");
     for (const auto& other : branches_)
       if (other->joins(place.rod->name(), place.at, 1e-9 * place.rod->rod().length))
         throw UsageError("scene:branch: '" + place.rod->name() + "' belongs to branch point '" + other->name + "' at " +
                          place.rod->describe(place.at) + " already");
+  }
   branches_.push_back(std::make_unique<PlacedBranch>(make_branch(std::move(name), places, held)));
   return *branches_.back();
 }
@@ -88,17 +100,25 @@ void Scene::remove(std::string_view name) {
     branches_.erase(branch);
     return;
   }
+  const auto robot = std::find_if(robots_.begin(), robots_.end(), [&](const PlacedRobot& r) { return r.name == name; });
+  if (robot != robots_.end()) {
+    check_removable(*robot);
+    robots_.erase(robot);
+    forget_bodies();
+    return;
+  }
   const auto obstacle =
       std::find_if(obstacles_.begin(), obstacles_.end(), [&](const PlacedObstacle& o) { return o.name == name; });
   if (obstacle == obstacles_.end()) {
     std::vector<std::string> names;
     for (const auto& r : rods_) names.push_back(r->name());
     for (const auto& b : branches_) names.push_back(b->name);
+    for (const PlacedRobot& r : robots_) names.push_back(r.name);
     for (const PlacedObstacle& o : obstacles_) names.push_back(o.name);
-    throw UsageError("scene:remove: unknown name " + unknown_name(name, "rods, branch points and obstacles", names));
+    throw UsageError("scene:remove: unknown name " + unknown_name(name, "rods, branch points, robots and obstacles", names));
   }
   obstacles_.erase(obstacle);
-  surroundings_.reset();
+  forget_bodies();
 }
 
 PlacedBranch& Scene::branch(std::string_view name) const {
@@ -129,9 +149,9 @@ const PlacedObstacle& Scene::obstacle(std::string_view name) const {
 }
 
 std::shared_ptr<const Surroundings> Scene::surroundings() const {
-  if (!surroundings_ && !obstacles_.empty()) {
+  if (!surroundings_ && !bodies().empty()) {
     auto all = std::make_shared<Surroundings>();
-    for (const PlacedObstacle& obstacle : obstacles_) {
+    for (const PlacedObstacle& obstacle : bodies()) {
       Obstacle body = obstacle.body;
       body.clearance = obstacle.clearance;
       body.name = obstacle.name;
@@ -153,6 +173,7 @@ RodProblem Scene::problem_of(const PlacedRod& rod) const {
   problem.holds = rod.holds();
   problem.loads = rod.loads();
   problem.gravity = rod.rod().mass() > 0 ? gravity_ : Vec3(Vec3::Zero());
+  problem.fastenings = fastenings_of(rod);
   return problem;
 }
 
@@ -221,9 +242,9 @@ SceneEquilibrium Scene::solve(const SolveOptions& options, const RunContext& con
   for (const auto& rod : rods_) result.rods.push_back({rod->name(), problem_of(*rod), options, {}});
   for (const auto& branch : branches_) result.branches.push_back({branch->name, branch->frame, {}});
   result.surroundings = surroundings();
-  result.obstacles = obstacles_;
+  result.obstacles = bodies();
   const Clock::time_point building = Clock::now();
-  for (const PlacedObstacle& obstacle : obstacles_)
+  for (const PlacedObstacle& obstacle : result.obstacles)
     if (obstacle.triangles() > 0 &&
         std::any_of(rods_.begin(), rods_.end(), [&](const auto& rod) { return can_reach(*rod, obstacle); }))
       build_tree(obstacle);

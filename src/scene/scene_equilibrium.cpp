@@ -22,6 +22,35 @@ int severity(Status status) {
   return 4;
 }
 
+/// Arc lengths at which what the rod is fastened to begins and ceases to count, rising.
+std::vector<double> fastening_borders(const RodProblem& problem) {
+  std::vector<double> borders;
+  for (const Fastening& one : problem.fastenings)
+    borders.insert(borders.end(), {problem.holds[one.hold].at - one.reach, problem.holds[one.hold].at + one.reach});
+  std::sort(borders.begin(), borders.end());
+  borders.erase(std::unique(borders.begin(), borders.end()), borders.end());
+  return borders;
+}
+
+/// The obstacles that the rod is fastened to near an arc length.
+std::vector<int> fastened_at(const RodProblem& problem, double s) {
+  std::vector<int> spared;
+  for (const Fastening& one : problem.fastenings)
+    if (std::abs(s - problem.holds[one.hold].at) <= one.reach) spared.push_back(one.obstacle);
+  return spared;
+}
+
+ClosestPoint closest_but(const SceneEquilibrium& eq, const Vec3& p, int to, const std::vector<int>& spared) {
+  if (spared.empty()) return eq.closest(p, to);
+  ClosestPoint best{std::numeric_limits<double>::infinity(), p, -1};
+  for (int k = 0; k < static_cast<int>(eq.obstacles.size()); ++k) {
+    if ((to >= 0 && k != to) || std::count(spared.begin(), spared.end(), k) > 0) continue;
+    const ClosestPoint found = eq.surroundings->closest_on(k, p, best.distance);
+    if (found.obstacle >= 0) best = found;
+  }
+  return best;
+}
+
 }  // namespace
 
 Status SceneEquilibrium::status() const {
@@ -148,10 +177,27 @@ ClosestPoint SceneEquilibrium::closest(const Vec3& p, int to) const {
   return to < 0 ? surroundings->closest(p, infinity) : surroundings->closest_on(to, p, infinity);
 }
 
-Clearance SceneEquilibrium::clearance(const SolvedRod& from, int to, double begin, double end) const {
-  const Rod& design = from.problem.rod;
-  const auto distance = [this, to](const Vec3& p) { return closest(p, to); };
-  return clearance_of(design, from.equilibrium, distance, begin, end < 0 ? design.length : end);
+Clearance SceneEquilibrium::clearance(const RodProblem& problem, const Equilibrium& state, int to, double begin, double end) const {
+  const Rod& design = problem.rod;
+  if (end < 0) end = design.length;
+  std::vector<double> borders{begin};
+  for (const double border : fastening_borders(problem))
+    if (border > begin && border < end) borders.push_back(border);
+  borders.push_back(end);
+  Clearance best;
+  best.value = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i + 1 < borders.size(); ++i) {
+    const std::vector<int> spared = fastened_at(problem, 0.5 * (borders[i] + borders[i + 1]));
+    if (std::count(spared.begin(), spared.end(), to) > 0) continue;
+    const auto distance = [&](const Vec3& p) { return closest_but(*this, p, to, spared); };
+    const Clearance here = clearance_of(design, state, distance, borders[i], borders[i + 1]);
+    if (here.value < best.value) best = here;
+  }
+  return best;
+}
+
+ClosestPoint SceneEquilibrium::closest(const SolvedRod& rod, double s, const Vec3& p, int to) const {
+  return closest_but(*this, p, to, fastened_at(rod.problem, s));
 }
 
 std::vector<SceneEquilibrium::JudgedGap> SceneEquilibrium::judged_gaps(const SolvedRod& rod) const {

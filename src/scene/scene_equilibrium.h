@@ -51,7 +51,7 @@ struct SceneEquilibrium {
   std::vector<SolvedRod> rods;
   std::vector<SolvedBranch> branches;
   std::vector<SolvedSystem> systems;
-  std::vector<PlacedObstacle> obstacles;  ///< numbered as in `surroundings`
+  std::vector<PlacedObstacle> obstacles;  ///< numbered as in `surroundings`: the obstacles, then the robots' links
   std::shared_ptr<const Surroundings> surroundings;  ///< null without obstacles
   double seconds = 0;            ///< all rods, without building the obstacles' trees
   double seconds_for_trees = 0;
@@ -83,10 +83,18 @@ struct SceneEquilibrium {
 
   /// The closest surface point of the obstacle `to` (-1: of any) to `p`; infinitely far, with obstacle -1, without one.
   ClosestPoint closest(const Vec3& p, int to = -1) const;
+  /// The same for a place of a rod at arc length `s` (m): what the rod is fastened to near there (RodProblem::fastenings) does not
+  /// count.
+  ClosestPoint closest(const SolvedRod& rod, double s, const Vec3& p, int to = -1) const;
 
   /// The smallest gap between rod `from` and the obstacle `to` (empty: any), in arc lengths `begin` ... `end` (m;
-  /// negative `end`: the rod's length). Infinite, with obstacle -1, when there is none.
-  Clearance clearance(const SolvedRod& from, int to = -1, double begin = 0, double end = -1) const;
+  /// negative `end`: the rod's length). Infinite, with obstacle -1, when there is none. What the rod is fastened to does not count
+  /// near where it is.
+  Clearance clearance(const SolvedRod& from, int to = -1, double begin = 0, double end = -1) const {
+    return clearance(from.problem, from.equilibrium, to, begin, end);
+  }
+  /// The same for another state of a rod, or another rod, in these surroundings.
+  Clearance clearance(const RodProblem& problem, const Equilibrium& state, int to = -1, double begin = 0, double end = -1) const;
 
   /// What an engineer looks at on one rod: the smallest gap of all, then that to every other obstacle which requires
   /// some clearance. Empty without obstacles.

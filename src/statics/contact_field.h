@@ -1,10 +1,12 @@
 // What statics needs to know of the surroundings of a rod; geometry and scene fill it in.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "base/error.h"
 #include "base/vectors.h"
 
 namespace tendril {
@@ -58,6 +60,12 @@ class ContactField {
   virtual ClosestPoint closest_kept(const Vec3& p, double limit, double /*most*/) const { return closest(p, limit); }
   virtual void terms_kept(const Vec3& p, double range, double /*most*/, std::vector<DistanceTerm>& out) const {
     terms(p, range, out);
+  }
+
+  /// The same without some of its obstacles; the others keep their numbers. Throws UsageError for a number
+  /// that there is not.
+  virtual std::shared_ptr<const ContactField> without(const std::vector<int>& /*obstacles*/) const {
+    throw UsageError("surroundings: these cannot leave out obstacles");
   }
 
   /// What messages call an obstacle.

@@ -15,7 +15,7 @@ bool ContactGuard::crosses(int i, const std::vector<Vec3>& x) {
   const double half = 0.5 * (x[i + 1] - x[i]).norm();
   if (set_->distance_bound(i, x[i]) > half && set_->distance_bound(i + 1, x[i + 1]) > half) return false;
   ++rays_;
-  return set_->field().ray(x[i], x[i + 1]).has_value();
+  return set_->field_after(i).ray(x[i], x[i + 1]).has_value();
 }
 
 void ContactGuard::start() {
@@ -48,7 +48,7 @@ double ContactGuard::limit_by_points(const std::vector<Vec3>& moved, std::vector
     if (length + margin <= bound || length == 0) continue;
     if (bound < 0 && set_->at(i) && set_->surface_distance(i) < 0) continue;  // inside a closed solid: the way out is free
     ++rays_;
-    const auto hit = set_->field().ray(x, moved[i] + motion * (margin / length));
+    const auto hit = set_->field_at(i).ray(x, moved[i] + motion * (margin / length));
     if (!hit) continue;
     const double plane = hit->normal.dot(hit->point);
     const double before = hit->normal.dot(x) - plane;

@@ -128,7 +128,7 @@ std::optional<ContactNetwork::Crossing> ContactNetwork::first_crossing(const Rod
     const ContactSet& set = rod.terms->set();
     const int i = crossings.front();
     const double a = set.points()[i].s, b = set.points()[i + 1].s;
-    if (const auto hit = set.field().ray(set.positions()[i], set.positions()[i + 1]))
+    if (const auto hit = set.field_after(i).ray(set.positions()[i], set.positions()[i + 1]))
       return Crossing{&rod, a + hit->share * (b - a), hit->point, hit->obstacle};
   }
   return std::nullopt;

@@ -5,8 +5,8 @@
 
 namespace tendril {
 
-ContactSet::ContactSet(const ContactField& field, std::vector<ContactPoint> points, double horizon)
-    : field_(&field),
+ContactSet::ContactSet(const FieldAlong& field, std::vector<ContactPoint> points, double horizon)
+    : field_(field),
       points_(std::move(points)),
       horizon_(horizon),
       x_(points_.size(), Vec3::Zero()),
@@ -16,7 +16,9 @@ ContactSet::ContactSet(const ContactField& field, std::vector<ContactPoint> poin
       first_cover_(points_.size() + 1, 0),
       was_active_(points_.size(), 0),
       active_(points_.size(), -1),
-      predicted_(points_.size(), Vec3::Zero()) {}
+      predicted_(points_.size(), Vec3::Zero()) {
+  for (const ContactPoint& p : points_) own_field_.push_back(&field_.at(p.s));
+}
 
 /// Looks up the distance when what is known does not settle the matter.
 bool ContactSet::out_of_reach(int i, const Vec3& x) {
@@ -24,7 +26,7 @@ bool ContactSet::out_of_reach(int i, const Vec3& x) {
   if (distance_bound(i, x) >= needed) return true;
   if (was_active_[i]) return false;  // most likely still in contact: its terms will tell the distance
   double limit = needed + horizon_;
-  if (i > 0) {
+  if (i > 0 && own_field_[i] == own_field_[i - 1]) {
     // A neighbour in the open vouches for this point, and otherwise bounds the search.
     const double apart = (x - x_[i - 1]).norm() + std::abs(points_[i].keep - points_[i - 1].keep);
     const double neighbour = distance_bound(i - 1, x_[i - 1]);
@@ -35,7 +37,7 @@ bool ContactSet::out_of_reach(int i, const Vec3& x) {
     if (known_[i - 1].at == x_[i - 1] && neighbour > 0) limit = std::min(limit, 1.0001 * (neighbour + apart) + needed);
   }
   ++queries_;
-  known_[i] = {x, field_->closest_kept(x, limit, points_[i].keep).distance};
+  known_[i] = {x, own_field_[i]->closest_kept(x, limit, points_[i].keep).distance};
   return known_[i].distance >= needed;
 }
 
@@ -54,7 +56,7 @@ double ContactSet::evaluate(const std::vector<Vec3>& x) {
     }
     terms_.clear();
     ++queries_;
-    field_->terms_kept(x[i], reach(i), points_[i].keep, terms_);
+    own_field_[i]->terms_kept(x[i], reach(i), points_[i].keep, terms_);
     double nearest = std::numeric_limits<double>::infinity();
     for (const DistanceTerm& t : terms_) nearest = std::min(nearest, t.distance);
     if (covered(i)) leave_out_covered(i);
@@ -64,7 +66,7 @@ double ContactSet::evaluate(const std::vector<Vec3>& x) {
       known_[i] = {x[i], nearest};
     } else if (known_[i].at != x[i]) {
       ++queries_;
-      known_[i] = {x[i], field_->closest_kept(x[i], reach(i) + horizon_, points_[i].keep).distance};
+      known_[i] = {x[i], own_field_[i]->closest_kept(x[i], reach(i) + horizon_, points_[i].keep).distance};
     }
     if (!(c.distance < reach(i))) continue;
     active_[i] = static_cast<int>(contacts_.size());
@@ -140,13 +142,13 @@ ContactSet::Nearest ContactSet::nearest(int i, double range) {
   ++queries_;
   if (!covered(i)) {
     // One closest point is far cheaper than all that lies within the range.
-    const ClosestPoint c = field_->closest_kept(x_[i], range, points_[i].keep);
+    const ClosestPoint c = own_field_[i]->closest_kept(x_[i], range, points_[i].keep);
     const double from_surface = c.obstacle < 0 ? 0 : c.distance + thickness(i, c.obstacle);
     if (from_surface != 0) nearest = {c.distance, (x_[i] - c.point) / from_surface, c.obstacle};
     return nearest;
   }
   terms_.clear();
-  field_->terms_kept(x_[i], range, points_[i].keep, terms_);
+  own_field_[i]->terms_kept(x_[i], range, points_[i].keep, terms_);
   leave_out_covered(i);
   for (const DistanceTerm& t : terms_)
     if (t.distance < nearest.distance) nearest = {t.distance, t.normal, t.obstacle};

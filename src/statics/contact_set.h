@@ -8,6 +8,7 @@
 
 #include "statics/contact_energy.h"
 #include "statics/contact_points.h"
+#include "statics/field_along.h"
 
 namespace tendril {
 
@@ -17,9 +18,11 @@ inline bool faces(const DistanceTerm& term, const Vec3& direction) { return term
 class ContactSet {
  public:
   /// `field` must outlive the set. `horizon` (m): how far ahead distances are looked up; farther is only "beyond".
-  ContactSet(const ContactField& field, std::vector<ContactPoint> points, double horizon);
+  ContactSet(const FieldAlong& field, std::vector<ContactPoint> points, double horizon);
 
-  const ContactField& field() const { return *field_; }
+  const ContactField& field() const { return field_.all(); }
+  const ContactField& field_at(int i) const { return *own_field_[i]; }                    ///< that point i meets
+  const ContactField& field_after(int i) const { return field_.between(points_[i].s, points_[i + 1].s); }  ///< and the way to the next
   const std::vector<ContactPoint>& points() const { return points_; }
   int size() const { return static_cast<int>(points_.size()); }
 
@@ -56,7 +59,7 @@ class ContactSet {
   Nearest nearest(int i, double range);
 
   /// How much farther off than its surface an obstacle acts on point i (m).
-  double thickness(int i, int obstacle) const { return std::min(field_->clearance(obstacle), points_[i].keep); }
+  double thickness(int i, int obstacle) const { return std::min(field().clearance(obstacle), points_[i].keep); }
 
   /// Of a point with a contact: the distance from the surface itself (m), negative inside a closed solid.
   double surface_distance(int i) const { return at(i)->distance + thickness(i, at(i)->obstacle); }
@@ -100,10 +103,11 @@ class ContactSet {
   bool out_of_reach(int i, const Vec3& x);
   void leave_out_covered(int i);
 
-  const ContactField* field_;
+  FieldAlong field_;
   std::vector<ContactPoint> points_;
   double horizon_;
   std::vector<Vec3> x_;
+  std::vector<const ContactField*> own_field_;  ///< by point
   std::vector<Known> known_;
   std::vector<double> shift_;
   std::vector<char> excluded_;

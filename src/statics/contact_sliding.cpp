@@ -46,15 +46,15 @@ ContactPoint SlidingContacts::place(int near, double s) const {
 }
 
 /// The distance of the nearest surface that lies against a direction; `limit` when there is none nearer.
-double SlidingContacts::distance_facing(const Vec3& x, const Vec3& direction, double limit) {
+double SlidingContacts::distance_facing(const ContactField& field, const Vec3& x, const Vec3& direction, double limit) {
   // Mostly the closest point is the one: far cheaper than all that lies within the limit.
-  const ClosestPoint c = field_->closest_kept(x, limit, keep_);
+  const ClosestPoint c = field.closest_kept(x, limit, keep_);
   if (c.obstacle < 0 || c.distance >= limit) return limit;
-  const double from_surface = c.distance + std::min(field_->clearance(c.obstacle), keep_);
+  const double from_surface = c.distance + std::min(field.clearance(c.obstacle), keep_);
   if (from_surface != 0 && faces({1, c.distance, (x - c.point) / from_surface, Mat3::Zero(), c.obstacle}, direction))
     return c.distance;
   terms_.clear();
-  field_->terms_kept(x, limit, keep_, terms_);
+  field.terms_kept(x, limit, keep_, terms_);
   double nearest = limit;
   for (const DistanceTerm& t : terms_)
     if (faces(t, direction)) nearest = std::min(nearest, t.distance);
@@ -66,7 +66,7 @@ double SlidingContacts::sharpness_of(const Point& p, const VertexShape& shape) {
   double rise = 0;
   for (double side : {-aside, aside}) {
     const ContactPoint there = place(p.at.segment, std::clamp(p.at.s + side, s_.front(), s_.back()));
-    rise += distance_facing(position_of(there, shape), p.direction, 2 * p.at.radius) - p.contact.distance;
+    rise += distance_facing(field_.at(there.s), position_of(there, shape), p.direction, 2 * p.at.radius) - p.contact.distance;
   }
   return rise * p.at.radius / (aside * aside);
 }
@@ -80,7 +80,7 @@ double SlidingContacts::look_at(Point& p, double s, const VertexShape& shape, co
   p.x = position_of(p.at, shape);
   const double reach = p.at.radius + p.shift;
   terms_.clear();
-  field_->terms_kept(p.x, reach, keep_, terms_);
+  field_.at(s).terms_kept(p.x, reach, keep_, terms_);
   std::erase_if(terms_, [&](const DistanceTerm& t) { return !faces(t, p.direction); });
   p.contact = contact_at(terms_, reach, p.at.weight, law);
   p.active = p.contact.distance < reach;

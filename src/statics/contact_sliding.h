@@ -20,9 +20,9 @@ class SlidingContacts {
  public:
   /// `s`: the vertices' arc lengths (m), `radii`: one for each segment (m); they and `field` must outlive this. `keep`:
   /// the most of the obstacles' clearances that counts (m).
-  SlidingContacts(const ContactField& field, std::span<const double> s, std::span<const double> radii, Element element,
+  SlidingContacts(const FieldAlong& field, std::span<const double> s, std::span<const double> radii, Element element,
                   double keep = 0)
-      : field_(&field), s_(s), radii_(radii), element_(element), keep_(keep) {}
+      : field_(field), s_(s), radii_(radii), element_(element), keep_(keep) {}
 
   struct Point {
     ContactPoint at;                ///< where it stands; `at.weight` is the length of rod it stands for
@@ -75,7 +75,7 @@ class SlidingContacts {
   /// Takes out the points where less than the whole clearance of their obstacle counts; `kept`: how much does at an arc length.
   template <class F>
   std::vector<Point> take_near_holds(F kept) {
-    return take_if([&](const Point& p) { return p.active && kept(p.at.s) < field_->clearance(p.contact.obstacle); });
+    return take_if([&](const Point& p) { return p.active && kept(p.at.s) < field_.all().clearance(p.contact.obstacle); });
   }
 
   /// The largest radius - distance (m); minus infinity without any.
@@ -90,12 +90,12 @@ class SlidingContacts {
     return taken;
   }
   void slide(Point& point, const VertexShape& shape, const ContactLaw& law);
-  double distance_facing(const Vec3& x, const Vec3& direction, double limit);
+  double distance_facing(const ContactField& field, const Vec3& x, const Vec3& direction, double limit);
   double sharpness_of(const Point& point, const VertexShape& shape);
   ContactPoint place(int near, double s) const;
   double look_at(Point& point, double s, const VertexShape& shape, const ContactLaw& law);
 
-  const ContactField* field_;
+  FieldAlong field_;
   std::span<const double> s_, radii_;
   Element element_;
   double keep_;

@@ -29,7 +29,7 @@ struct Touch {
 Vec3 gradient_by_radius(const ContactTerms& contacts, const ContactPoint& p, const Vec3& x, double shift, const Vec3* facing) {
   std::vector<DistanceTerm> terms;
   const double reach = p.radius + shift;
-  contacts.set().field().terms_kept(x, reach, p.keep, terms);
+  contacts.field().at(p.s).terms_kept(x, reach, p.keep, terms);
   Vec3 sum = Vec3::Zero();
   for (const DistanceTerm& t : terms)
     if (reach > t.distance && (!facing || faces(t, *facing)))

@@ -127,7 +127,7 @@ class Search {
     crossings_of(frames);
     const ContactSet& set = terms_.set();
     for (const int i : terms_.guard().crossings())
-      if (const auto hit = set.field().ray(set.positions()[i], set.positions()[i + 1]))
+      if (const auto hit = set.field_after(i).ray(set.positions()[i], set.positions()[i + 1]))
         return CrossingPlace{set.points()[i].s, hit->point, hit->normal};
     return std::nullopt;
   }

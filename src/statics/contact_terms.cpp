@@ -25,6 +25,15 @@ std::vector<double> held_places(const RodSystem& system, const std::vector<doubl
   return held;
 }
 
+std::vector<SparedStretch> spared_stretches(const RodSystem& system) {
+  std::vector<SparedStretch> spared;
+  for (const Fastening& one : system.problem().fastenings) {
+    const double s = system.mesh().s[system.mesh().hold_vertex[one.hold]];
+    spared.push_back({one.obstacle, s - one.reach, s + one.reach});
+  }
+  return spared;
+}
+
 std::vector<double> radii_of(const RodMesh& mesh) {
   std::vector<double> radii;
   for (const MeshSegment& segment : mesh.segments) radii.push_back(segment.section.radius());
@@ -71,8 +80,9 @@ ContactTerms::ContactTerms(const RodSystem& system, Element element, int first_n
       radii_(radii_of(system.mesh())),
       held_s_(held_places(system, also_held)),
       keep_(clearance == ClearanceRule::push ? system.problem().surroundings->largest_clearance() : 0),
-      set_(*system.problem().surroundings, placed_points(), 0.25 * system.length()),
-      sliding_(*system.problem().surroundings, system.mesh().s, radii_, element, keep_),
+      field_(*system.problem().surroundings, spared_stretches(system)),
+      set_(field_, placed_points(), 0.25 * system.length()),
+      sliding_(field_, system.mesh().s, radii_, element, keep_),
       guard_(set_) {
   for (int i = 0; i < set_.size(); ++i)
     if (way_to_hold(set_.points()[i].s) <= set_.points()[i].radius * (1 + 1e-9)) set_.exclude(i);
@@ -245,7 +255,7 @@ ContactTerms::Deepest ContactTerms::deepest_between(const Station& low, const St
     p.radius = reach;
     p.keep = kept(s, reach);
     const Vec3 position = position_of(p, shape);
-    const ClosestPoint c = set_.field().closest_kept(position, 2 * reach + apart, p.keep);
+    const ClosestPoint c = field_.at(s).closest_kept(position, 2 * reach + apart, p.keep);
     if (reach - c.distance > deepest.penetration) deepest = {reach - c.distance, c.obstacle, p, (position - c.point).normalized()};
     return reach - c.distance;
   };

@@ -40,6 +40,7 @@ class ContactTerms final : public FurtherTerms {
 
   ContactSet& set() { return set_; }
   const ContactSet& set() const { return set_; }
+  const FieldAlong& field() const { return field_; }
   const SlidingContacts& sliding() const { return sliding_; }
 
   /// True when a force acts where only a part of the obstacle's clearance counts (contact_points.h, kept_at()).
@@ -105,6 +106,7 @@ class ContactTerms final : public FurtherTerms {
   std::vector<double> radii_;        ///< per segment
   std::vector<double> held_s_;       ///< arc lengths of held positions
   double keep_;                      ///< m, the largest clearance that pushes
+  FieldAlong field_;
   ContactSet set_;
   SlidingContacts sliding_;
   ContactGuard guard_;

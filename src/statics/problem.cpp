@@ -93,6 +93,13 @@ void RodProblem::check(bool held_elsewhere) const {
         !std::isfinite(spring.rotation) || spring.position < 0 || spring.rotation < 0)
       throw UsageError("spring at " + number_text(spring.at) + " m: frame and stiffnesses must be finite numbers, stiffnesses at least 0");
   }
+  for (const Fastening& one : fastenings) {
+    if (one.hold < 0 || one.hold >= static_cast<int>(holds.size()))
+      throw UsageError("fastening: names hold " + std::to_string(one.hold) + " of " + std::to_string(holds.size()));
+    if (one.obstacle < 0 || !std::isfinite(one.reach) || one.reach < 0)
+      throw UsageError("fastening: obstacle " + std::to_string(one.obstacle) + " within " + number_text(one.reach) +
+                       " m, expected two numbers of at least 0");
+  }
   double softest = INFINITY;
   for (const RodPart& part : rod.parts) softest = std::min(softest, part.section.EA);
   const double weight = rod.mass() * gravity.norm();

@@ -46,6 +46,14 @@ enum class Element { se3, staggered };
 /// half-segment's rotation is fixed, equation (2.10b) (first order).
 enum class ClampRule { half_cell, thesis };
 
+/// A rod that is fastened to an obstacle lies near it there: within `reach` (m) of arc length from the hold the obstacle does not
+/// act on the rod.
+struct Fastening {
+  int hold = 0;      ///< of the problem
+  int obstacle = 0;  ///< of the surroundings
+  double reach = 0;
+};
+
 struct RodProblem {
   Rod rod;
   std::vector<Hold> holds;       ///< any order; at most one for each place
@@ -53,6 +61,7 @@ struct RodProblem {
   std::vector<PoseSpring> springs;  ///< they do not hold a rod: something else must keep it
   Vec3 gravity = Vec3::Zero();   ///< m/s^2; zero: the term is left out
   const ContactField* surroundings = nullptr;  ///< not owned; null: no contact term
+  std::vector<Fastening> fastenings = {};      ///< without surroundings of no meaning
 
   /// Throws UsageError naming what cannot be: places outside the rod, contradictory holds, non-finite numbers, a weight
   /// that the rod's stretch stiffness cannot carry. `held_elsewhere`: false where nothing but its own holds keeps the rod.

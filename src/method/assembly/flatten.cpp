@@ -37,6 +37,7 @@ Unrouted unrouted(const Scene& scene, const FlattenOptions& options, const RunCo
     out.rods.push_back(scene.rods()[system.rods[k]]->name());
     out.radius = std::max(out.radius, rod.rod.largest_radius());
     rod.holds.clear();
+    rod.fastenings.clear();
     rod.loads.clear();
     rod.gravity = Vec3::Zero();
     rod.surroundings = nullptr;

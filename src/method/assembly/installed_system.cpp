@@ -138,6 +138,7 @@ InstalledSystem installed_system(const Scene& scene, const Options& options, int
       add_place(installed.free, rod, hold.at);
     }
     problem.holds.clear();
+    problem.fastenings.clear();
     for (int i = 0; i <= between; ++i) {
       const double share = i == 0 ? 0.5 : static_cast<double>((i + 1) / 2 * (i % 2 ? 1 : -1)) / (between + 2) + 0.5;
       installed.extra.push_back({name + "." + std::to_string(static_cast<int>(std::lround(100 * share))), rod, -1, share * problem.rod.length, false});

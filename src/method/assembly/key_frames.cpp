@@ -12,7 +12,7 @@ SceneEquilibrium frame_of(const Scene& scene, const InstalledSystem& system, con
   SceneEquilibrium frame;
   for (std::size_t k = 0; k < system.rods.size(); ++k) frame.rods.push_back({system.rods[k], system.free.rods[k], solve, {}});
   for (const std::string& name : system.branches) frame.branches.push_back({name, {}, {}});
-  frame.obstacles = scene.obstacles();
+  frame.obstacles = scene.bodies();
   frame.surroundings = system.surroundings;
   return frame;
 }

@@ -57,7 +57,7 @@ FreeSpace::FreeSpace(const Scene& scene, const SpaceDemands& demands, const std:
   check(ends, margin);
   take_obstacles(scene);
   const Eigen::AlignedBox3d inner = set_region(ends, margin);
-  if (!scene.obstacles().empty()) make_field(scene, inner, context);
+  if (!scene.bodies().empty()) make_field(scene, inner, context);
   if (PlaceCost::differs(scene, demands_)) make_costs(scene, inner, context);
 }
 
@@ -88,7 +88,7 @@ void FreeSpace::check(const std::vector<Vec3>& ends, double margin) const {
 }
 
 void FreeSpace::take_obstacles(const Scene& scene) {
-  for (const PlacedObstacle& placed : scene.obstacles()) {
+  for (const PlacedObstacle& placed : scene.bodies()) {
     Obstacle body = placed.body;
     body.name = placed.name;
     names_.push_back(placed.name);
@@ -124,10 +124,10 @@ void FreeSpace::make_field(const Scene& scene, const Eigen::AlignedBox3d& inner,
   Surroundings beyond;
   std::vector<const TriangleSurface*> surfaces;
   double triangles = 0;
-  for (std::size_t i = 0; i < scene.obstacles().size(); ++i) {
+  for (std::size_t i = 0; i < scene.bodies().size(); ++i) {
     Obstacle body = surroundings_.obstacle(static_cast<int>(i));
     if (const auto* surface = std::get_if<std::shared_ptr<const TriangleSurface>>(&body.shape)) surfaces.push_back(surface->get());
-    triangles += static_cast<double>(scene.obstacles()[i].triangles());
+    triangles += static_cast<double>(scene.bodies()[i].triangles());
     body.clearance -= demands_.clearance;
     beyond.add(std::move(body));
   }

@@ -30,7 +30,7 @@ std::pair<double, double> nearness(double gap, double range) {
 }  // namespace
 
 bool PlaceCost::differs(const Scene& scene, const SpaceDemands& demands) {
-  const auto& all = scene.obstacles();
+  const auto& all = scene.bodies();
   return std::any_of(all.begin(), all.end(), [&](const PlacedObstacle& placed) {
     return by_nearest(placed, demands) || by_preference(placed, demands);
   });
@@ -40,7 +40,7 @@ PlaceCost::PlaceCost(const Scene& scene, const SpaceDemands& demands, const Eige
                      double spacing, const RunContext& context)
     : demands_(demands) {
   std::size_t triangles = 0;
-  for (const PlacedObstacle& placed : scene.obstacles()) {
+  for (const PlacedObstacle& placed : scene.bodies()) {
     Obstacle body = placed.body;
     body.name = placed.name;
     body.clearance = 0;

@@ -17,7 +17,7 @@ Rod formed_rod(const Curve& curve, const Section& section, int segments) {
 Settled settle(const Scene& scene, const Curve& curve, const Section& section, int segments, const SolveOptions& options,
                const RunContext& context) {
   Scene alone(scene.gravity());
-  for (const PlacedObstacle& obstacle : scene.obstacles()) alone.add(obstacle);
+  for (const PlacedObstacle& obstacle : scene.bodies()) alone.add(obstacle);
   alone.add(PlacedRod("hose", formed_rod(curve, section, segments), curve.at(0), curve.at(curve.length())));
   Settled settled{std::make_shared<SceneEquilibrium>(alone.solve(options, context))};
   const Equilibrium& eq = settled.equilibrium->rods.front().equilibrium;

@@ -120,7 +120,7 @@ class RestReport {
 
 Scene scene_of(const Scene& scene, const HarnessResult& harness) {
   Scene alone(scene.gravity());
-  for (const PlacedObstacle& obstacle : scene.obstacles()) alone.add(obstacle);
+  for (const PlacedObstacle& obstacle : scene.bodies()) alone.add(obstacle);
   std::vector<PlacedRod*> rods;
   for (std::size_t b = 0; b < harness.branches.size(); ++b) {
     const HarnessBranch& branch = harness.branches[b];

@@ -13,7 +13,7 @@ namespace {
 void check(const Scene& scene, const std::vector<ObjectToRoute>& objects) {
   if (objects.empty()) throw UsageError("route: there are no objects to route");
   std::vector<std::string> taken;
-  for (const PlacedObstacle& obstacle : scene.obstacles()) taken.push_back(obstacle.name);
+  for (const PlacedObstacle& obstacle : scene.bodies()) taken.push_back(obstacle.name);
   for (const auto& rod : scene.rods()) taken.push_back(rod->name());
   for (const ObjectToRoute& object : objects) {
     if (object.name.empty()) throw UsageError("route: an object needs a name");

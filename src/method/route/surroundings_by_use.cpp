@@ -29,7 +29,7 @@ bool demands(const PlacedObstacle& obstacle) { return obstacle.clearance > 0; }
 }  // namespace
 
 SurroundingsByUse::SurroundingsByUse(const Scene& scene, const RefinementOptions& options)
-    : obstacles(with_clearance(scene.obstacles(), options.clearance)),
+    : obstacles(with_clearance(scene.bodies(), options.clearance)),
       all(some_of(obstacles, true, [](const PlacedObstacle&) { return true; })),
       touchable(some_of(obstacles, true, [](const PlacedObstacle& o) { return !demands(o); })),
       nearest(options.clearance_weight > 0

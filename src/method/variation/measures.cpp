@@ -214,9 +214,7 @@ bool Measures::needs_equilibrium(int system) const {
 
 double Measures::clearance(const Entry& entry, const SystemOutcome& outcome) const {
   const int index = entry.measure.measure.rod;
-  const Rod& design = outcome.problem->rods[index].rod;
-  const auto distance = [&](const Vec3& p) { return nominal_.closest(p, entry.obstacle); };
-  return clearance_of(design, outcome.rod(index, false), distance, 0, design.length).value;
+  return nominal_.clearance(outcome.problem->rods[index], outcome.rod(index, false), entry.obstacle).value;
 }
 
 void Measures::read(int system, const SystemOutcome& outcome, std::span<double> values) const {
