@@ -86,9 +86,7 @@ BENCHMARK(derivatives)->ArgName("second")->Arg(0)->Arg(1)->Unit(benchmark::kMicr
 
 void simulated(benchmark::State& run) {
   PackProblem pack = six_axis_hose(static_cast<int>(run.range(0)));
-  Surroundings around;
-  around.add({Box{{0.6, 0.6, 1.2}}, {{1.2, 0.35, 0.9}, Quat::Identity()}, 0, "fixture"});
-  if (run.range(1)) pack.rods[0].surroundings = &around;
+  if (run.range(1)) pack.bodies = {{{Box{{0.6, 0.6, 1.2}}, {{1.2, 0.35, 0.9}, Quat::Identity()}, 0, "fixture"}}};
   const JointPath path = path_of(static_cast<int>(run.range(2)));
   PackMotion motion;
   for (auto _ : run) motion = simulate(pack, path, {200});

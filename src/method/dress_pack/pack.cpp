@@ -26,6 +26,18 @@ void check_one(const PackProblem& pack, std::size_t k) {
     throw UsageError(called(k) + ": its rotation has the norm " + std::to_string(a.in_link.rotation.norm()) + ", expected 1");
 }
 
+void check_bodies(const PackProblem& pack) {
+  Surroundings tried;
+  const int links = static_cast<int>(pack.robot->links().size());
+  for (std::size_t k = 0; k < pack.bodies.size(); ++k) {
+    tried.add(pack.bodies[k].body);
+    const int link = pack.bodies[k].link;
+    if (link < -1 || link >= links)
+      throw UsageError("dress pack: body " + std::to_string(k) + " is on link " + std::to_string(link) + " of " + std::to_string(links) +
+                       "; expected -1 for a fixed one");
+  }
+}
+
 }  // namespace
 
 std::string PackProblem::rod_name(int rod) const {
@@ -54,12 +66,13 @@ void PackProblem::check() const {
   }
   for (std::size_t k = 0; k < rods.size(); ++k) {
     rods[k].check();
-    for (const Hold& hold : rods[k].holds)
-      if (hold.slide) throw UsageError("dress pack: rod " + std::to_string(k) + " slides through a hold, expected holds that grip");
+    if (rods[k].surroundings)
+      throw UsageError("dress pack: " + rod_name(static_cast<int>(k)) + " has surroundings of its own; expected none: give the pack its bodies");
     for (const PointLoad& load : rods[k].loads)
       if (!load.moment.isZero(0))
         throw UsageError("dress pack: rod " + std::to_string(k) + " carries a dead moment, expected forces alone");
   }
+  check_bodies(*this);
 }
 
 void PackProblem::poses(const JointVector& q, std::vector<Frame>& out) const {
@@ -105,9 +118,10 @@ SystemProblem PackProblem::system_at(const JointVector& q) const {
   return system;
 }
 
-bool PackProblem::has_surroundings() const {
+bool PackProblem::slides() const {
   for (const RodProblem& rod : rods)
-    if (rod.surroundings) return true;
+    for (const Hold& hold : rod.holds)
+      if (hold.slide) return true;
   return false;
 }
 

@@ -37,9 +37,13 @@ struct PackProblem {
   std::string rod_name(int rod) const;                ///< "hose"; without names "rod 1"
   std::string attachment_name(int attachment) const;  ///< "hose.start", "hose.finish", "hose.0.4": an arc length in m
 
-  /// Throws UsageError naming what is missing or does not exist: robot, rods, attachments, links and holds; a hold attached twice
-  /// or one that slides; dead moments (their work depends on the way); and as RodProblem::check() does.
+  /// Throws UsageError naming what is missing or does not exist: robot, rods, attachments, links and holds; a hold attached
+  /// twice; dead moments (their work depends on the way); rods with surroundings of their own, beside the bodies; bodies on links
+  /// that do not exist; and as RodProblem::check() and Surroundings::add() do.
   void check() const;
+
+  /// A rod slips through one of its holds: such packs can be simulated, but not optimised.
+  bool slides() const;
 
   /// World frames of the attachments, one each. Throws UsageError as Robot::link_frame() does.
   void poses(const JointVector& q, std::vector<Frame>& out) const;
@@ -52,8 +56,6 @@ struct PackProblem {
   /// What statics solves when the robot stands at q.
   SystemProblem system_at(const JointVector& q) const;
   void place(const std::vector<Frame>& poses, SystemProblem& system) const;
-
-  bool has_surroundings() const;
 };
 
 }  // namespace tendril::dress_pack

@@ -20,12 +20,18 @@ SolveOptions following() {
   return options;
 }
 
+PackFollower::Outcome touching(PackFollower::Outcome& out) {
+  out.status = Status::stalled;
+  out.touches = true;
+  out.message = "a rod touches a body";
+  return std::move(out);
+}
+
 }  // namespace
 
 PackFollower::Outcome PackFollower::start(RodState& state, const JointVector& q, const RunContext& context) {
   Outcome out;
   SystemProblem system = statics_.pack().system_at(q);
-  for (RodProblem& rod : system.rods) rod.surroundings = nullptr;
   system.check();
   const SystemEquilibrium found = solve(system, {}, context);
   out.status = found.rods.front().status;
@@ -64,17 +70,27 @@ PackFollower::Outcome PackFollower::advance(RodState& state, const JointVector& 
     RodState trial = state;
     const PackStatics::Moved moved = statics_.move(trial, poses, limits_.tolerance);
     out.iterations += moved.iterations;
+    const bool smallest = (next - out.reached) * way <= limits_.smallest_turn;
     if (moved.ok && moved.corrected <= smooth_ratio * std::max(moved.predicted, least_prediction)) {
+      const MotionWatch::Verdict verdict = watch_ ? watch_->judge(trial, q) : MotionWatch::Verdict::clear;
+      if (verdict == MotionWatch::Verdict::too_far && !smallest) {
+        step = 0.5 * (next - out.reached);
+        continue;
+      }
+      if (verdict != MotionWatch::Verdict::clear) return touching(out);
+      if (watch_) watch_->accept();
       state = std::move(trial);
       out.reached = next;
       step = std::min(growth * step, full);
       continue;
     }
-    if ((next - out.reached) * way > limits_.smallest_turn) {
+    if (!smallest) {
       step = 0.5 * (next - out.reached);
       continue;
     }
     // At the very turning point the energy is flat and its minimum hard to find; a little farther on it is not.
+    const RodState before = state;
+    const std::size_t snaps = out.snaps.size();
     double there = next;
     int wider = 0;
     bool settled = settle(state, q, there, context, out);
@@ -84,6 +100,12 @@ PackFollower::Outcome PackFollower::advance(RodState& state, const JointVector& 
       settled = settle(state, there == 1 ? to : JointVector(from + there * (to - from)), there, context, out);
     }
     if (!settled) return out;
+    if (watch_ && watch_->judge(state, there == 1 ? to : JointVector(from + there * (to - from))) != MotionWatch::Verdict::clear) {
+      state = before;  // it would have fallen through what is in its way
+      out.snaps.resize(snaps);
+      return touching(out);
+    }
+    if (watch_) watch_->accept();
     out.message.clear();
     out.reached = there;
   }
@@ -95,7 +117,6 @@ PackFollower::Outcome PackFollower::advance(RodState& state, const JointVector& 
 bool PackFollower::settle(RodState& state, const JointVector& q, double share, const RunContext& context, Outcome& out) {
   const SystemEquilibrium before = statics_.describe(state);
   SystemProblem system = statics_.pack().system_at(q);
-  for (RodProblem& rod : system.rods) rod.surroundings = nullptr;
   const SystemEquilibrium found = solve(system, following(), context, &before);
   out.iterations += found.rods.front().iterations;
   out.status = found.rods.front().status;

@@ -2,50 +2,33 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace tendril::dress_pack {
 namespace {
 
 constexpr double clearance_reach = 0.5;  // m: what is farther away is not looked for
 
-/// At vertices and halfway between them, on the straight line; m.
-double clearance_of(const RodProblem& problem, const Equilibrium& rod) {
-  double least = std::numeric_limits<double>::infinity(), limit = clearance_reach;
-  auto look = [&](const Vec3& p, double radius) {
-    const ClosestPoint near = problem.surroundings->closest(p, limit + radius);
-    if (near.obstacle < 0 || near.distance - radius >= least) return;
-    least = near.distance - radius;
-    limit = std::max(least, 0.0);
-  };
-  for (std::size_t i = 0; i < rod.points.size(); ++i) {
-    look(rod.points[i], rod.radii[std::min(i, rod.radii.size() - 1)]);
-    if (i + 1 < rod.points.size()) look(0.5 * (rod.points[i] + rod.points[i + 1]), rod.radii[i]);
-  }
-  return least;
-}
-
-RodReport report_of(const RodProblem& problem, const Equilibrium& rod) {
+RodReport report_of(const Equilibrium& rod) {
   RodReport out;
   out.tension = rod.largest_tension();
   for (const Vec3& change : rod.curvature_changes) out.twist = std::max(out.twist, std::abs(change.z()));
   out.bend_radius = rod.smallest_bend_radius();
-  out.clearance = problem.surroundings ? clearance_of(problem, rod) : std::numeric_limits<double>::infinity();
   return out;
 }
 
 }  // namespace
 
-void PackReporter::report(PackStep& step) {
-  RodNetwork& network = statics_.network();
+void PackReporter::report(PackStatics& statics, PackStep& step) {
+  RodNetwork& network = statics.network();
+  rods_.resize(network.rods());
   network.gradient(step.state, gradient_);
   step.residual = 0;
   for (int i = 0; i < network.nodes(); ++i)
     for (int c = 0; c < 6; ++c)
       if (!(network.held()[i] >> c & 1)) step.residual = std::max(step.residual, std::abs(gradient_[i][c]) / (c < 3 ? 1 : network.size()));
-  step.ends.resize(statics_.attachments());
-  for (int k = 0; k < statics_.attachments(); ++k) {
-    const int node = statics_.node_of(k);
+  step.ends.resize(statics.attachments());
+  for (int k = 0; k < statics.attachments(); ++k) {
+    const int node = statics.node_of(k);
     const HeldMask held = network.held()[node];
     if (held & held_position) step.ends[k].force = gradient_[node].head<3>();
     if (held & held_rotation) step.ends[k].moment = step.state.q[node] * Vec3(gradient_[node].tail<3>());
@@ -62,12 +45,15 @@ void PackReporter::report(PackStep& step) {
     rod.radii.clear();
     for (const MeshSegment& segment : system.mesh().segments) rod.radii.push_back(segment.section.radius());
     system.describe(network.of_rod(k, step.state), rod);
-    step.rods.push_back(report_of(system.problem(), rod));
+    step.rods.push_back(report_of(rod));
   }
+  if (bodies_.size() == 0) return;
+  if (!gaps_) gaps_.emplace(bodies_, network);
+  add_clearances(*gaps_, step);
 }
 
-void PackReporter::report(const SystemEquilibrium& equilibrium, PackStep& step) const {
-  const PackProblem& pack = statics_.pack();
+void PackReporter::report(const SystemEquilibrium& equilibrium, PackStep& step) {
+  const PackProblem& pack = bodies_.pack();
   step.ends.resize(pack.attachments.size());
   for (std::size_t k = 0; k < pack.attachments.size(); ++k) {
     const Reaction& reaction = equilibrium.rods[pack.attachments[k].rod].reactions[pack.attachments[k].hold];
@@ -75,9 +61,25 @@ void PackReporter::report(const SystemEquilibrium& equilibrium, PackStep& step) 
   }
   step.rods.clear();
   step.residual = 0;
-  for (std::size_t k = 0; k < pack.rods.size(); ++k) {
-    step.rods.push_back(report_of(pack.rods[k], equilibrium.rods[k]));
-    step.residual = std::max(step.residual, equilibrium.rods[k].residual);
+  for (const Equilibrium& rod : equilibrium.rods) {
+    step.rods.push_back(report_of(rod));
+    for (const ContactForce& contact : rod.contacts) step.rods.back().contact += contact.force.norm();
+    step.residual = std::max(step.residual, rod.residual);
+  }
+  if (bodies_.size() == 0) return;
+  if (!gaps_ || pack.slides()) {
+    gaps_.emplace(bodies_, equilibrium);
+    memory_ = {};
+  }
+  add_clearances(*gaps_, step);
+}
+
+void PackReporter::add_clearances(const PackGaps& gaps, PackStep& step) {
+  gaps.place(step.state, step.q, places_);
+  for (std::size_t k = 0; k < step.rods.size(); ++k) {
+    const PackGaps::Nearest near = gaps.smallest(static_cast<int>(k), step.state, places_, clearance_reach, memory_);
+    step.rods[k].clearance = near.gap;
+    step.rods[k].body = near.body;
   }
 }
 

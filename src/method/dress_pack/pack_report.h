@@ -1,22 +1,31 @@
 // What one state of a dress pack says to an engineer.
 #pragma once
 
+#include <optional>
+
+#include "method/dress_pack/pack_gaps.h"
 #include "method/dress_pack/pack_simulation.h"
 
 namespace tendril::dress_pack {
 
-/// Fills ends, rods and residual of a step from its state.
+/// Fills ends, rods and residual of a step.
 class PackReporter {
  public:
-  explicit PackReporter(PackStatics& statics) : statics_(statics), rods_(statics.network().rods()) {}
+  explicit PackReporter(const PackBodies& bodies) : bodies_(bodies) {}
 
-  void report(PackStep& step);
+  /// From its state, of a pack that touches nothing.
+  void report(PackStatics& statics, PackStep& step);
 
-  /// The same from a solution with contact.
-  void report(const SystemEquilibrium& equilibrium, PackStep& step) const;
+  /// From a solution with contact.
+  void report(const SystemEquilibrium& equilibrium, PackStep& step);
 
  private:
-  PackStatics& statics_;
+  void add_clearances(const PackGaps& gaps, PackStep& step);
+
+  const PackBodies& bodies_;
+  std::optional<PackGaps> gaps_;
+  PackGaps::Memory memory_;
+  PackPlaces places_;
   std::vector<Equilibrium> rods_;
   std::vector<Vec6> gradient_;
 };

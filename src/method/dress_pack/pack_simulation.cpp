@@ -4,15 +4,19 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <memory>
 
 #include "base/error.h"
 #include "base/number_text.h"
-#include "method/dress_pack/pack_follower.h"
+#include "method/dress_pack/contact_follower.h"
 #include "method/dress_pack/pack_report.h"
-#include "statics/motion.h"
 
 namespace tendril::dress_pack {
 namespace {
+
+constexpr double touching_radii = 0.15;    // gaps below are left to the solver with contact
+constexpr double longest_touching = 0.5;   // radii: it begins no farther than that from where a rod touches
+constexpr double same_state = 1e-3;        // of the length
 
 void check(const SimulationOptions& options) {
   if (options.steps < 1) throw UsageError("dress pack: " + std::to_string(options.steps) + " time steps, expected at least 1");
@@ -21,6 +25,8 @@ void check(const SimulationOptions& options) {
                      " rad, expected two positive numbers in this order");
   if (!(options.tolerance > 0) || options.tolerance > 1e-3)
     throw UsageError("dress pack: a tolerance of " + number_text(options.tolerance) + ", expected more than 0 and at most 1e-3");
+  if (options.most_solutions < 1)
+    throw UsageError("dress pack: at most " + std::to_string(options.most_solutions) + " solutions with contact, expected at least 1");
 }
 
 /// The times at which the path bends, between two others.
@@ -33,91 +39,155 @@ std::vector<double> stations(const JointPath& path, double from, double to) {
   return out;
 }
 
-class FreeMotion {
+/// Compares each motion of the free pack with the places before.
+class GapWatch final : public MotionWatch {
  public:
-  FreeMotion(const PackProblem& pack, const JointPath& path, const SimulationOptions& options)
-      : path_(path), times_(JointPath::times(options.steps)), statics_(pack), reporter_(statics_),
-        follower_(statics_, {options.largest_turn, options.smallest_turn, options.tolerance, true}) {}
+  GapWatch(const PackBodies& bodies, const RodNetwork& network) : gaps_(bodies, network) {}
+
+  void stand_at(const RodState& state, const JointVector& q) { gaps_.place(state, q, before_); }
+  bool touches() { return !gaps_.watch(before_, before_, touching_radii, memory_).clear; }
+
+  Verdict judge(const RodState& state, const JointVector& q) override {
+    gaps_.place(state, q, after_);
+    const PackGaps::Watch seen = gaps_.watch(before_, after_, touching_radii, memory_);
+    if (seen.clear) return Verdict::clear;
+    return seen.move > longest_touching ? Verdict::too_far : Verdict::touches;
+  }
+  void accept() override { std::swap(before_, after_); }
+
+ private:
+  PackGaps gaps_;
+  PackGaps::Memory memory_;
+  PackPlaces before_, after_;
+};
+
+class PackRun {
+ public:
+  PackRun(const PackProblem& pack, const JointPath& path, const SimulationOptions& options)
+      : path_(path), times_(JointPath::times(options.steps)), bodies_(pack), reporter_(bodies_),
+        in_contact_(bodies_, {options.largest_turn, options.smallest_turn, options.tolerance, options.most_solutions}) {
+    if (pack.slides()) return;
+    statics_ = std::make_unique<PackStatics>(pack);
+    follower_ = std::make_unique<PackFollower>(*statics_, FollowLimits{options.largest_turn, options.smallest_turn, options.tolerance, true});
+    if (bodies_.size() == 0) return;
+    watch_ = std::make_unique<GapWatch>(bodies_, statics_->network());
+    follower_->set_watch(watch_.get());
+  }
 
   void run(const RunContext& context, PackMotion& out) {
-    RodState state;
-    const PackFollower::Outcome start = follower_.start(state, path_.at(0), context);
-    out.iterations = start.iterations;
-    out.status = start.status;
-    if (!start.ok()) {
-      out.message = "no equilibrium at the start of the path: " + start.message;
-      return;
-    }
-    keep(0, state, out);
+    if (!start(context, out)) return;
+    keep(0, out);
     for (std::size_t k = 1; k < times_.size(); ++k) {
-      if (!advance(times_[k - 1], times_[k], state, context, out)) return;
-      keep(times_[k], state, out);
+      if (!advance(times_[k - 1], times_[k], context, out)) break;
+      keep(times_[k], out);
       if (context.progress) context.progress(times_[k], "motion");
     }
-    out.message = out.snaps.empty() ? "solved" : "solved, with " + std::to_string(out.snaps.size()) + " snap-through" + (out.snaps.size() > 1 ? "s" : "");
+    out.iterations += static_cast<int>(in_contact_.iterations());
+    out.contact_solutions = in_contact_.solutions();
+    if (out.ok())
+      out.message = out.snaps.empty() ? "solved" : "solved, with " + std::to_string(out.snaps.size()) + " snap-through" + (out.snaps.size() > 1 ? "s" : "");
   }
 
  private:
-  bool advance(double from, double to, RodState& state, const RunContext& context, PackMotion& out) {
+  bool start(const RunContext& context, PackMotion& out) {
+    std::string why;
+    if (follower_) {
+      const PackFollower::Outcome start = follower_->start(state_, path_.at(0), context);
+      out.iterations = start.iterations;
+      out.status = start.status;
+      why = start.message;
+      free_ = start.ok();
+      if (free_ && watch_) {
+        watch_->stand_at(state_, path_.at(0));
+        free_ = !watch_->touches();
+      }
+    }
+    if (!free_ && (bodies_.size() > 0 || !follower_) && !context.stop()) {
+      const ContactFollower::Outcome start = in_contact_.start(path_.at(0), nullptr, context);
+      out.status = start.status;
+      why = start.message;
+    }
+    if (!out.ok()) out.message = "no equilibrium at the start of the path: " + why;
+    return out.ok();
+  }
+
+  bool advance(double from, double to, const RunContext& context, PackMotion& out) {
     for (const double there : stations(path_, from, to)) {
-      const PackFollower::Outcome way = follower_.advance(state, path_.at(from), path_.at(there), context);
-      out.iterations += way.iterations;
-      for (const PackFollower::Snap& snap : way.snaps)
-        out.snaps.push_back({from + snap.share * (there - from), snap.rod, snap.move, snap.energy_drop});
-      out.status = way.status;
-      if (!way.ok()) {
-        out.message = "no equilibrium beyond t = " + number_text(from + way.reached * (there - from)) + ": " + way.message;
-        return false;
+      while (from < there) {
+        const double reached = free_ ? freely(from, there, context, out) : touching(from, there, context, out);
+        if (!out.ok()) return false;
+        from = reached;
       }
       from = there;
     }
     return true;
   }
 
-  void keep(double t, const RodState& state, PackMotion& out) {
+  /// Until a rod touches. Returns the time that was reached.
+  double freely(double from, double to, const RunContext& context, PackMotion& out) {
+    const PackFollower::Outcome way = follower_->advance(state_, path_.at(from), path_.at(to), context);
+    const double reached = way.reached >= 1 ? to : from + way.reached * (to - from);
+    note(way.snaps, from, to, out);
+    out.iterations += way.iterations;
+    out.status = way.touches ? Status::solved : way.status;
+    if (way.touches) {
+      in_contact_.set_here(statics_->describe(state_));
+      free_ = false;
+    } else if (!way.ok()) {
+      out.message = "no equilibrium beyond t = " + number_text(reached) + ": " + way.message;
+    }
+    return reached;
+  }
+
+  /// Until no rod touches any more.
+  double touching(double from, double to, const RunContext& context, PackMotion& out) {
+    const ContactFollower::Outcome way = in_contact_.advance(path_.at(from), path_.at(to), follower_ != nullptr, context);
+    const double reached = way.reached >= 1 ? to : from + way.reached * (to - from);
+    note(way.snaps, from, to, out);
+    out.status = way.status;
+    if (!way.ok()) out.message = "no equilibrium beyond t = " + number_text(reached) + ": " + way.message;
+    if (way.free) come_free(path_.at(reached));
+    return reached;
+  }
+
+  /// The other element of formulation stands where the ordinary solver stood, or else that goes on.
+  void come_free(const JointVector& q) {
+    RodState state = state_of(in_contact_.here());
+    const RodState before = state;
+    if (!statics_->move(state, bodies_.pack().poses(q)).ok) return;
+    for (std::size_t i = 0; i < state.r.size(); ++i)
+      if ((state.r[i] - before.r[i]).norm() > same_state * statics_->network().size()) return;
+    watch_->stand_at(state, q);
+    if (watch_->touches()) return;
+    state_ = std::move(state);
+    free_ = true;
+  }
+
+  static void note(const std::vector<PackFollower::Snap>& snaps, double from, double to, PackMotion& out) {
+    for (const PackFollower::Snap& snap : snaps) out.snaps.push_back({from + snap.share * (to - from), snap.rod, snap.move, snap.energy_drop});
+  }
+
+  void keep(double t, PackMotion& out) {
     PackStep step;
     step.t = t;
     step.q = path_.at(t);
-    step.state = state;
-    reporter_.report(step);
+    step.state = free_ ? state_ : state_of(in_contact_.here());
+    if (free_) reporter_.report(*statics_, step);
+    else reporter_.report(in_contact_.here(), step);
     out.steps.push_back(std::move(step));
   }
 
   const JointPath& path_;
   std::vector<double> times_;
-  PackStatics statics_;
+  PackBodies bodies_;
   PackReporter reporter_;
-  PackFollower follower_;
+  ContactFollower in_contact_;
+  std::unique_ptr<PackStatics> statics_;    ///< these three null for a pack that slides
+  std::unique_ptr<PackFollower> follower_;
+  std::unique_ptr<GapWatch> watch_;         ///< null without bodies
+  RodState state_;                          ///< while free
+  bool free_ = false;
 };
-
-void run_in_contact(const PackProblem& pack, const JointPath& path, const SimulationOptions& options, const RunContext& context,
-                    PackMotion& out) {
-  PackStatics statics(pack);
-  const PackReporter reporter(statics);
-  MotionOptions motion;
-  motion.steps = options.steps;
-  SolveOptions solve;
-  solve.tolerance = options.tolerance;
-  std::vector<Frame> poses;
-  const ProblemPath placed = [&](double t, SystemProblem& system) {
-    pack.poses(path.at(t), poses);
-    pack.place(poses, system);
-  };
-  const Motion found = follow(pack.system_at(path.at(0)), placed, motion, solve, context);
-  out.status = found.status;
-  out.message = found.message;
-  out.iterations = found.solves;
-  for (const SnapThrough& snap : found.snaps) out.snaps.push_back({snap.t, snap.rod, snap.move, snap.energy_drop});
-  for (const MotionStep& one : found.steps) {
-    if (!one.equilibrium.ok()) continue;
-    PackStep step;
-    step.t = one.t;
-    step.q = path.at(one.t);
-    step.state = statics.state_of(one.equilibrium);
-    reporter.report(one.equilibrium, step);
-    out.steps.push_back(std::move(step));
-  }
-}
 
 template <class Read>
 double largest_of(const std::vector<PackStep>& steps, Read read) {
@@ -140,10 +210,7 @@ PackMotion simulate(const PackProblem& pack, const JointPath& path, const Simula
     out.message = beyond;
     return out;
   }
-  if (pack.has_surroundings())
-    run_in_contact(pack, path, options, context, out);
-  else
-    FreeMotion(pack, path, options).run(context, out);
+  PackRun(pack, path, options).run(context, out);
   out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return out;
 }

@@ -5,10 +5,12 @@
 // in two halves. What cannot be made in the smallest steps is left to the ordinary solver, which runs down the energy from there:
 // the rods have snapped through when that took them far.
 //
-// With surroundings the ordinary solver makes all steps, contact included (statics/motion.h).
-// Not done: friction, contact between the rods of a pack, and with the robot's own links.
+// Bodies are watched by a bound on what has moved: far from them that is all. Where a rod comes to touch one, the ordinary solver
+// with contact makes the steps (contact_follower.h), until it has come free; and all steps of a pack that slides through a hold.
+// Not done: friction, contact between the rods of a pack.
 #pragma once
 
+#include <limits>
 #include <string>
 
 #include "base/run_context.h"
@@ -21,6 +23,7 @@ struct SimulationOptions {
   double largest_turn = 0.25;  ///< rad or m, of a joint in one motion
   double smallest_turn = 1e-4; ///< rad or m; what happens within it is a snap-through
   double tolerance = 1e-9;     ///< see SolveOptions
+  int most_solutions = 5000;   ///< with contact or sliding; then the motion has stalled
 };
 
 /// What one attachment exerts on its rod, in world axes, the moment about the section's centre.
@@ -33,7 +36,9 @@ struct RodReport {
   double tension = 0;      ///< N, the largest force along the rod; negative: compression everywhere
   double twist = 0;        ///< rad/m, the largest change against the unstressed rod, without sign
   double bend_radius = 0;  ///< m, the smallest
-  double clearance = 0;    ///< m, of the surfaces; infinity without surroundings within reach; negative: overlap
+  double clearance = std::numeric_limits<double>::infinity();  ///< m, between the surfaces; infinite beyond 0.5 m; negative: overlap
+  int body = -1;           ///< that is nearest; -1: none within reach
+  double contact = 0;      ///< N, the contact forces' sizes added up
 };
 
 struct PackStep {
@@ -57,7 +62,8 @@ struct PackMotion {
   std::string message;
   std::vector<PackStep> steps;   ///< those that were reached
   std::vector<PackSnap> snaps;
-  int iterations = 0;            ///< factorisations; with surroundings: solutions
+  int iterations = 0;            ///< factorisations
+  int contact_solutions = 0;     ///< of the ordinary solver, with contact or sliding
   double seconds = 0;
   bool ok() const { return status == Status::solved; }
 

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "base/error.h"
+
 namespace tendril::dress_pack {
 namespace {
 
@@ -11,6 +13,8 @@ constexpr double rough_stress = 1;          // see Newton: a false stress above 
 constexpr double rounding_step = 1e-6;      // steps below this that shrink no more are rounding
 
 std::unique_ptr<RodNetwork> network_of(const PackProblem& pack) {
+  if (pack.slides())
+    throw UsageError("dress pack: a rod slides through a hold, which paths can be simulated with but not optimised; expected holds that grip");
   std::vector<int> segments;
   for (const RodProblem& rod : pack.rods) segments.push_back(rod.rod.segments);
   return std::make_unique<RodNetwork>(SystemProblem{pack.rods, {}}, SolveOptions{}, segments);
@@ -31,14 +35,13 @@ PackStatics::PackStatics(const PackProblem& pack) : pack_(pack), network_(networ
   }
 }
 
-RodState PackStatics::state_of(const SystemEquilibrium& equilibrium) const {
-  std::vector<std::vector<Frame>> frames;
+RodState state_of(const SystemEquilibrium& equilibrium) {
+  RodState state;
   for (const Equilibrium& rod : equilibrium.rods) {
-    std::vector<Frame> vertices;
-    for (std::size_t i = 0; i < rod.s.size(); ++i) vertices.push_back({rod.points[i], rod.rotations[i]});
-    frames.push_back(std::move(vertices));
+    state.r.insert(state.r.end(), rod.points.begin(), rod.points.end());
+    state.q.insert(state.q.end(), rod.rotations.begin(), rod.rotations.end());
   }
-  return network_->state_from(frames, {});
+  return state;
 }
 
 SystemEquilibrium PackStatics::describe(const RodState& state) {

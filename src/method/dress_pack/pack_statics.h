@@ -19,9 +19,12 @@
 
 namespace tendril::dress_pack {
 
+/// The vertices of all rods, one after the other.
+RodState state_of(const SystemEquilibrium& equilibrium);
+
 class PackStatics {
  public:
-  /// The pack must outlive this and have passed check().
+  /// The pack must outlive this and have passed check(). Throws UsageError where a rod slides through a hold.
   explicit PackStatics(const PackProblem& pack);
 
   const PackProblem& pack() const { return pack_; }
@@ -31,7 +34,7 @@ class PackStatics {
   int node_of(int attachment) const { return nodes_[attachment]; }
 
   /// Of the ordinary solver's solution.
-  RodState state_of(const SystemEquilibrium& equilibrium) const;
+  RodState state_of(const SystemEquilibrium& equilibrium) const { return dress_pack::state_of(equilibrium); }
   /// Arc lengths, places, rotations, forces, strains, reactions and energies; no verdict.
   SystemEquilibrium describe(const RodState& state);
 

@@ -151,7 +151,7 @@ ReducedResult optimise(const PackProblem& given, const JointPath& given_path, co
   check(options, *given.robot);
   const Clock::time_point begin = Clock::now();
   PackProblem pack = given;
-  for (RodProblem& rod : pack.rods) rod.surroundings = nullptr;
+  pack.bodies.clear();
   ReducedResult out;
   out.path = options.via > 0 ? given_path.resampled(options.via) : given_path;
   const std::string beyond = beyond_robot(out.path, *pack.robot, options.seconds);

@@ -162,9 +162,7 @@ TEST_CASE("motion of a pack: what it cannot do is refused or said", "[dress_pack
 TEST_CASE("motion of a pack: surroundings far away change nothing", "[dress_pack]") {
   PackProblem pack = six_axis_pack();
   const PackMotion free = simulate(pack, problematic_path(), {5});
-  Surroundings around;
-  around.add({Sphere{0.2}, {{0, 0, 9}, Quat::Identity()}, 0, "lamp"});
-  pack.rods[0].surroundings = &around;
+  pack.bodies = {{{Sphere{0.2}, {{0, 0, 9}, Quat::Identity()}, 0, "lamp"}}};
   const PackMotion among = simulate(pack, problematic_path(), {5});
   REQUIRE(free.ok());
   REQUIRE(among.ok());
@@ -176,11 +174,9 @@ TEST_CASE("motion of a pack: surroundings far away change nothing", "[dress_pack
 
 TEST_CASE("motion of a pack: a hose that is lowered onto a table lies on it", "[dress_pack]") {
   PackProblem pack = six_axis_pack(20);
-  Surroundings around;
-  around.add({HalfSpace{}, {{0, 0, 1.75}, Quat::Identity()}, 0, "table"});
   const JointPath path({degrees({0, -10, 0, 0, 0, 0}), degrees({0, 4, 0, 90, 0, 0})});
   const PackMotion free = simulate(pack, path, {8});
-  pack.rods[0].surroundings = &around;
+  pack.bodies = {{{HalfSpace{}, {{0, 0, 1.75}, Quat::Identity()}, 0, "table"}}};
   const PackMotion on_table = simulate(pack, path, {8});
   REQUIRE(free.ok());
   REQUIRE(on_table.ok());

@@ -1,0 +1,90 @@
+#include "method/dress_pack/pack_bodies.h"
+
+#include <algorithm>
+
+namespace tendril::dress_pack {
+namespace {
+
+constexpr double fitting_radii = 4;
+
+std::vector<int> rigid_groups(const Robot& robot) {
+  std::vector<int> group(robot.links().size(), 0);
+  for (std::size_t k = 1; k < group.size(); ++k) {
+    const Joint& joint = robot.joints()[k - 1];
+    group[k] = joint.kind == JointKind::fixed ? group[joint.parent] : static_cast<int>(k);
+  }
+  return group;
+}
+
+}  // namespace
+
+PackBodies::PackBodies(const PackProblem& pack) : pack_(pack), rigid_(rigid_groups(*pack.robot)) {
+  for (const PackBody& body : pack.bodies) {
+    surroundings_.add(body.body);
+    const auto* mesh = std::get_if<std::shared_ptr<const TriangleSurface>>(&body.body.shape);
+    boxes_.push_back(mesh ? (*mesh)->box() : tendril::box_of(std::get<Solid>(body.body.shape)));
+  }
+  for (std::size_t k = 0; k < pack.rods.size(); ++k)
+    for (const Hold& hold : pack.rods[k].holds)
+      if (hold.position) skips_.push_back({hold.at, 1, static_cast<int>(k), -1});
+  for (const Attachment& a : pack.attachments)
+    skips_.push_back({pack.rods[a.rod].holds[a.hold].at, fitting_radii, a.rod, rigid_[a.link]});
+}
+
+void PackBodies::poses(const JointVector& q, std::vector<BodyPose>& out) const {
+  const std::vector<Frame> links = pack_.robot->link_frames({q.data(), static_cast<std::size_t>(q.size())});
+  out.resize(size());
+  for (int b = 0; b < size(); ++b) {
+    const PackBody& body = pack_.bodies[b];
+    Frame there = body.link < 0 ? body.body.pose : pack_.base * (links[body.link] * body.body.pose);
+    there.rotation.normalize();
+    out[b] = {there.rotation.toRotationMatrix(), there.at};
+  }
+}
+
+BodyDistance PackBodies::distance(int body, const Vec3& in_body, double limit) const {
+  const auto& shape = pack_.bodies[body].body.shape;
+  const BodyDistance nothing{limit, in_body, false};
+  const double to_box = boxes_[body].squaredExteriorDistance(in_body);
+  if (to_box > 0 && !(limit > 0 && to_box < limit * limit)) return nothing;
+  if (const auto* solid = std::get_if<Solid>(&shape)) {
+    const SolidDistance found = distance_to(*solid, in_body);
+    return found.distance < limit ? BodyDistance{found.distance, found.point, true} : nothing;
+  }
+  const DistanceTree::Nearest found = std::get<0>(shape)->tree().closest(in_body, limit);
+  return found.triangle < 0 ? nothing : BodyDistance{found.distance, found.point, true};
+}
+
+bool PackBodies::passes(int body, const Vec3& from, const Vec3& to) const {
+  const Eigen::AlignedBox3d way(from.cwiseMin(to), from.cwiseMax(to));
+  if (!boxes_[body].intersects(way)) return false;
+  const auto& shape = pack_.bodies[body].body.shape;
+  if (const auto* solid = std::get_if<Solid>(&shape)) return entry_into(*solid, from, to).has_value();
+  return std::get<0>(shape)->tree().ray(from, to).has_value();
+}
+
+bool PackBodies::compared(int rod, double s, double radius, int body) const {
+  const int link = pack_.bodies[body].link;
+  for (const Skip& skip : skips_) {
+    if (skip.rod != rod || std::abs(s - skip.at) > skip.reach * radius * (1 + 1e-9)) continue;
+    if (skip.group < 0 || (link >= 0 && rigid_[link] == skip.group)) return false;
+  }
+  return true;
+}
+
+void PackBodies::move(const JointVector& q) {
+  const std::vector<Frame> links = pack_.robot->link_frames({q.data(), static_cast<std::size_t>(q.size())});
+  for (int b = 0; b < size(); ++b) {
+    const PackBody& body = pack_.bodies[b];
+    if (body.link < 0) continue;
+    Frame there = pack_.base * (links[body.link] * body.body.pose);
+    there.rotation.normalize();
+    surroundings_.move(b, there);
+  }
+}
+
+void PackBodies::surround(SystemProblem& system) const {
+  for (RodProblem& rod : system.rods) rod.surroundings = size() > 0 ? &surroundings_ : nullptr;
+}
+
+}  // namespace tendril::dress_pack
