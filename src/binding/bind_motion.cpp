@@ -11,6 +11,7 @@
 #include "binding/lua_context.h"
 #include "binding/open.h"
 #include "binding/solve_options.h"
+#include "method/dress_pack/scene_path_motion.h"
 
 namespace tendril::lua {
 namespace {
@@ -27,8 +28,9 @@ Schema motion_options() {
   return Schema{
              option<std::map<std::string, Path>>(
                  "holds", "", "By \"rod.start\", \"rod.finish\", \"rod.0.25\" (an arc length in m) or a branch point's name: a "
-                              "function of t = 0 ... 1 that returns a frame, or a list of frames passed evenly in t")
-                 .required(),
+                              "function of t = 0 ... 1 that returns a frame, or a list of frames passed evenly in t"),
+             option<std::string>("robot", "", "Instead of holds: the robot that moves, with all rods of the scene attached to it"),
+             option<std::vector<std::vector<double>>>("path", "rad or m", "Its joint values, passed evenly in t and straight between"),
              option<int>("steps", "", "Solutions that are kept, evenly spaced in t").at_least(1).at_most(1e6).preset(20),
              option<double>("largest_move", "", "Share of the length that a vertex may move in one step before it is halved")
                  .above(0).at_most(1).preset(0.02),
@@ -65,6 +67,19 @@ MovingHold moving_hold(lua_State* L, const Scene& scene, const std::string& key,
     hold.path = [L, function = std::get<Function>(path)](double t) { return function.call<Frame>(L, "scene:motion", t); };
   }
   return hold;
+}
+
+SceneMotion robot_motion(lua_State* L, const Scene& scene, const Options& o) {
+  if (o.has("holds")) throw UsageError("scene:motion: got 'holds' beside a robot's path; its attachments move, other holds stay");
+  if (!o.has("robot") || !o.has("path"))
+    throw UsageError(std::string("scene:motion: '") + (o.has("robot") ? "path" : "robot") + "' is missing; a robot and its path belong together");
+  std::vector<dress_pack::JointVector> via;
+  for (const std::vector<double>& q : o.get<std::vector<std::vector<double>>>("path"))
+    via.push_back(Eigen::Map<const dress_pack::JointVector>(q.data(), static_cast<Eigen::Index>(q.size())));
+  dress_pack::SimulationOptions options;
+  options.steps = o.get<int>("steps");
+  options.tolerance = solve_options(o).tolerance;
+  return dress_pack::move_robot(scene, o.get<std::string>("robot"), dress_pack::JointPath(std::move(via)), options, run_context(L, o));
 }
 
 std::string describe_motion(const SceneMotion& motion) {
@@ -106,12 +121,14 @@ void bind_sampled_motion(lua_State* L) {
 void add_motion_to(Class<Scene>& scene) {
   scene.method("motion",
                {.options = motion_options(),
-                .does = "Moves holds along paths, quasi-statically: each equilibrium starts from the one before, steps adapt, and "
+                .does = "Moves holds along paths, or a robot and what is attached to it, quasi-statically: each equilibrium starts from the one before, steps adapt, and "
                         "a snap-through is reported with its place.",
                 .example = with_hose("local m = s:motion{steps = 4, holds = {[\"hose.finish\"] = function(t)\n"
                                      "  return frame{at = {0.9, 0.1 * t, 0}, along = {1, 0, 0}} end}}\n"
                                      "print(m.ok, #m.equilibria)  --> true\t5")},
                [](lua_State* L, const Scene& s, const Options& o) {
+                 if (o.has("robot") || o.has("path")) return std::make_shared<SceneMotion>(robot_motion(L, s, o));
+                 if (!o.has("holds")) throw UsageError("scene:motion: nothing moves; give 'holds', or 'robot' and 'path'");
                  std::vector<MovingHold> holds;
                  for (const auto& [key, path] : o.get<std::map<std::string, Path>>("holds"))
                    holds.push_back(moving_hold(L, s, key, path));

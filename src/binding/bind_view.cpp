@@ -1,9 +1,13 @@
 // view: pictures of a scene and its equilibrium.
+#include <cstdio>
+#include <filesystem>
+
 #include "base/nearest_name.h"
 #include "binding/assembly_classes.h"
 #include "binding/bind_mesh.h"
 #include "binding/card.h"
 #include "binding/compose_assembly.h"
+#include "binding/compose_motion.h"
 #include "binding/examples.h"
 #include "binding/flatten_classes.h"
 #include "binding/lua_class.h"
@@ -23,6 +27,7 @@ struct View {
   std::shared_ptr<SceneEquilibrium> equilibrium;  ///< null: the scene is not solved
   PictureWish wish;
   std::shared_ptr<const assembly::Result> installation;  ///< several states of it; null: none
+  std::shared_ptr<const SceneMotion> motion;             ///< the same; the equilibrium is its last one
 };
 
 namespace {
@@ -33,10 +38,10 @@ using OneOrMany = std::variant<std::string, std::vector<std::string>>;
 /// Scenes and what was found in them, shared and not copied.
 struct ShownKind {
   static const Kind& kind() {
-    static const Kind kind{"a scene, an equilibrium, hoses, a hose, routes, an assembly or a board", "scene|equilibrium|preform_result|hose|routes|assembly|board", [](lua_State* L, int index) {
+    static const Kind kind{"a scene, an equilibrium, a motion, hoses, a hose, routes, an assembly or a board", "scene|equilibrium|motion|preform_result|hose|routes|assembly|board", [](lua_State* L, int index) {
       const bool fits = object<Scene>(L, index) || object<SceneEquilibrium>(L, index) || object<PreformHandle>(L, index) ||
                         object<HoseHandle>(L, index) || object<RoutesHandle>(L, index) || object<AssemblyHandle>(L, index) ||
-                        object<FlattenHandle>(L, index);
+                        object<FlattenHandle>(L, index) || object<SceneMotion>(L, index);
       return fits ? std::string() : describe(L, index);
     }};
     return kind;
@@ -57,17 +62,26 @@ Schema view_options() {
                                         "obstacles are to it, and the rods are plain"),
       option<std::string>("title", "", "On the card"),
   }
-      .with_list(ShownKind::kind(), "what", "The scene, its equilibrium, hoses of method.preform (all, or one to colour it by its clearance), routes of method.route as they are nominally, an installation by method.assembly, a build board by method.flatten");
+      .with_list(ShownKind::kind(), "what", "The scene, its equilibrium, or a motion of it (a strip of its states; with an envelope the space swept), hoses of method.preform (all, or one to colour it by its clearance), routes of method.route as they are nominally, an installation by method.assembly, a build board by method.flatten");
 }
 
-Schema save_options() {
+Schema page_options() {
   return Schema{
              option<std::array<int, 2>>("size", "pixels", "{width, height}; default {1600, 1200}"),
              option<std::vector<std::string>>("sheet", "", "Views in rows of two: \"iso\", \"front\", \"top\", \"side\", \"card\"; "
                                                            "default iso, front, top and card"),
-             option<int>("frames", "", "States of an assembly that are shown, the routed one among them").at_least(1).at_most(100).preset(6),
-             option<OneOrMany>("fit", "", "Rod, obstacle or \"envelope\", or a list, that fills each view; default: rods and envelope"),
+             option<OneOrMany>("fit", "", "Rod, obstacle, robot or \"envelope\", or a list, that fills each view; default: rods, envelope and "
+                                          "the robots that carry rods"),
          } + timeout_schema();
+}
+
+Schema save_options() {
+  return page_options() + Schema{option<int>("frames", "", "States of an assembly or a motion that are shown, the last one among them")
+                                     .at_least(1).at_most(100).preset(6)};
+}
+
+Schema frames_options() {
+  return page_options() + Schema{option<int>("frames", "", "How many, evenly spaced; default: all that the motion kept").at_least(1).at_most(9999)};
 }
 
 void read_moves(const StabilityHandle& stability, const SceneEquilibrium* shown, PictureWish& wish) {
@@ -146,12 +160,21 @@ bool read_assembly(lua_State* L, View& view) {
   return true;
 }
 
+/// The same of a motion.
+bool read_motion(lua_State* L, View& view) {
+  if (!object<SceneMotion>(L, -1)) return false;
+  view.motion = Value<std::shared_ptr<SceneMotion>>::read(L, -1);
+  if (view.motion->equilibria.empty()) throw UsageError("view.new: the motion has no states to show: " + view.motion->message);
+  show_equilibrium(view, view.motion->equilibria.back());
+  return true;
+}
+
 void read_shown(lua_State* L, const Options& o, View& view) {
   const lua_Integer count = o.index() ? luaL_len(L, o.index()) : 0;
   for (lua_Integer i = 1; i <= count; ++i) {
     lua_geti(L, o.index(), i);
     const bool scene = object<Scene>(L, -1) != nullptr;
-    if (!read_hoses(L, view) && !read_routes(L, view) && !read_assembly(L, view)) {
+    if (!read_hoses(L, view) && !read_routes(L, view) && !read_assembly(L, view) && !read_motion(L, view)) {
       if (scene ? view.scene != nullptr : view.equilibrium != nullptr)
         throw UsageError(std::string("view.new: got two ") + (scene ? "scenes" : "equilibria") + ", expected at most one of each");
       if (scene) view.scene = Value<std::shared_ptr<Scene>>::read(L, -1);
@@ -177,7 +200,7 @@ View make_view(lua_State* L, const Options& o) {
   return view;
 }
 
-SavedFile save_view(lua_State* L, const View& view, const std::string& path, const Options& o) {
+PictureWish wish_of(const View& view, const Options& o) {
   PictureWish wish = view.wish;
   if (const auto size = o.maybe<std::array<int, 2>>("size")) {
     wish.width = (*size)[0];
@@ -188,10 +211,43 @@ SavedFile save_view(lua_State* L, const View& view, const std::string& path, con
     if (const std::string* one = std::get_if<std::string>(&*fit)) wish.fit = {*one};
     else wish.fit = std::get<std::vector<std::string>>(*fit);
   }
+  return wish;
+}
+
+Picture picture_of(const View& view, const Options& o) {
+  PictureWish wish = wish_of(view, o);
   if (view.installation) wish.extras = extras_of(*view.installation, o.get<int>("frames"));
-  const Picture picture = compose_picture(*view.scene, view.equilibrium.get(), wish);
-  const PictureReport report = save_picture(picture, path, run_context(L, o));
+  if (!view.motion) return compose_picture(*view.scene, view.equilibrium.get(), wish);
+  const std::vector<MotionFrame> frames = key_frames(*view.motion, o.get<int>("frames"));
+  return wish.envelope ? compose_sweep(*view.scene, frames, wish) : compose_strip(*view.scene, frames, wish);
+}
+
+SavedFile save_view(lua_State* L, const View& view, const std::string& path, const Options& o) {
+  const PictureReport report = save_picture(picture_of(view, o), path, run_context(L, o));
   return {path, report.status, report.seconds};
+}
+
+/// Numbered pictures of a motion's states.
+std::vector<SavedFile> save_frames(lua_State* L, const View& view, const std::string& folder, const Options& o) {
+  if (!view.motion) throw UsageError("view:save_frames: this view shows one state, expected a motion");
+  const int count = o.maybe<int>("frames").value_or(static_cast<int>(view.motion->equilibria.size()));
+  const RunContext context = run_context(L, o);
+  PictureWish wish = wish_of(view, o);
+  if (!o.has("sheet")) wish.views = {"iso"};
+  const std::vector<Picture> pictures = compose_frames(*view.scene, key_frames(*view.motion, count), wish);
+  std::vector<SavedFile> files;
+  for (std::size_t k = 0; k < pictures.size(); ++k) {
+    RunContext own = context;
+    if (context.progress)
+      own.progress = [&, k](double share, const char* what) { context.progress((double(k) + share) / double(pictures.size()), what); };
+    char name[32];
+    std::snprintf(name, sizeof name, "frame_%04zu.png", k + 1);
+    const std::string path = (std::filesystem::path(folder) / name).string();
+    const PictureReport report = save_picture(pictures[k], path, own);
+    files.push_back({path, report.status, report.seconds});
+    if (report.status != Status::solved) break;
+  }
+  return files;
 }
 
 }  // namespace
@@ -212,6 +268,13 @@ void bind_view(lua_State* L) {
               {.takes = {"path"}, .options = save_options(), .does = "Draws it into a .png; a missing folder is created.",
                          .example = with_equilibrium("view.new{s, eq}:save(\"hose.png\", {size = {320, 240}, sheet = {\"iso\"}})")},
               save_view)
+      .method("save_frames",
+              {.takes = {"folder"}, .options = frames_options(),
+               .does = "A motion's states as frame_0001.png, frame_0002.png ... in a folder, for an animation: all through the same camera.",
+               .example = with_hose("local m = s:motion{steps = 2, holds = {[\"hose.finish\"] = function(t)\n"
+                                    "  return frame{at = {0.9, 0.2 * t, 0}, along = {1, 0, 0}} end}}\n"
+                                    "print(#view.new{s, m}:save_frames(\"frames\", {size = {160, 120}}))  --> 3")},
+              save_frames)
       .tostring([](const View& v) {
         return Card("view").row("rods", std::to_string(v.equilibrium ? v.equilibrium->rods.size() : 0))
             .row("obstacles", std::to_string(v.equilibrium ? v.equilibrium->obstacles.size() : v.scene->bodies().size()))

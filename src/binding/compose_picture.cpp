@@ -28,18 +28,40 @@ std::string millimetres(double metres) {
 
 std::string seconds(double value) { return value < 1 ? text("%.3g ms", 1e3 * value) : text("%.3g s", value); }
 
+constexpr Rgb robot_colour{0.88f, 0.56f, 0.22f};
+
 /// What a picture shows of the scene, from the equilibrium when there is one.
 struct Shown {
   const std::vector<PlacedObstacle>& obstacles;
   const SceneEquilibrium* equilibrium;
   Box rods;  ///< around the rods' surfaces, or around the holds of a scene that is not solved
   Box envelope = {};
+  Box carriers = {};  ///< around the robots that carry rods
 };
 
 Box box_of_tube(const PictureTube& tube) {
   Box box;
   for (const Vec3& p : tube.points) box.extend(p);
   return box.isEmpty() ? box : Box(box.min().array() - tube.radius, box.max().array() + tube.radius);
+}
+
+/// "arm" of "arm.link_3"; empty for what is no link.
+std::string robot_of(const PlacedObstacle& obstacle) { return obstacle.of_robot ? obstacle.name.substr(0, obstacle.name.find('.')) : ""; }
+
+/// By its own name, or a link by its robot's.
+bool is_named(const PlacedObstacle& obstacle, const std::vector<std::string>& names) {
+  return std::any_of(names.begin(), names.end(), [&](const std::string& name) { return name == obstacle.name || name == robot_of(obstacle); });
+}
+
+/// Around the robots that carry rods.
+Box box_of_carriers(const SceneEquilibrium& eq) {
+  std::vector<std::string> carriers;
+  for (const SolvedRod& rod : eq.rods)
+    for (const Fastening& one : rod.problem.fastenings) carriers.push_back(robot_of(eq.obstacles[one.obstacle]));
+  Box box;
+  for (int k = 0; k < static_cast<int>(eq.obstacles.size()); ++k)
+    if (eq.obstacles[k].of_robot && is_named(eq.obstacles[k], carriers)) box.extend(eq.surroundings->box_of(k));
+  return box;
 }
 
 void add_surfaces(const Shown& shown, const PictureWish& wish, Picture& picture) {
@@ -51,8 +73,9 @@ void add_surfaces(const Shown& shown, const PictureWish& wish, Picture& picture)
     surface.triangles = mesh->triangles;
     surface.owner = mesh;
     surface.pose = obstacle.body.pose;
-    const bool ghost = !wish.ghost || std::count(wish.ghost->begin(), wish.ghost->end(), obstacle.name) > 0;
+    const bool ghost = wish.ghost ? is_named(obstacle, *wish.ghost) : !obstacle.of_robot;
     surface.style = ghost ? SurfaceStyle::ghost : SurfaceStyle::solid;
+    if (obstacle.of_robot) surface.colour = robot_colour;
     picture.surfaces.push_back(std::move(surface));
   }
 }
@@ -137,9 +160,14 @@ PictureCard card_of(const SceneEquilibrium& eq, const std::vector<Gaps>& gaps, c
   return card;
 }
 
+bool is_link_of(const Shown& shown, const std::string& surface, const std::string& robot) {
+  return std::any_of(shown.obstacles.begin(), shown.obstacles.end(),
+                     [&](const PlacedObstacle& o) { return o.name == surface && robot_of(o) == robot; });
+}
+
 std::optional<PictureBox> fit_box(const Shown& shown, const Picture& picture, const std::vector<std::string>& wanted) {
-  if (wanted.empty() && shown.envelope.isEmpty()) return std::nullopt;
-  Box box = wanted.empty() ? Box(shown.rods.merged(shown.envelope)) : Box();
+  if (wanted.empty() && shown.envelope.isEmpty() && shown.carriers.isEmpty()) return std::nullopt;
+  Box box = wanted.empty() ? Box(shown.rods.merged(shown.envelope).merged(shown.carriers)) : Box();
   for (const std::string& name : wanted) {
     std::vector<std::string> names;
     Box found;
@@ -149,10 +177,10 @@ std::optional<PictureBox> fit_box(const Shown& shown, const Picture& picture, co
     }
     for (const PictureSurface& surface : picture.surfaces) {
       names.push_back(surface.name);
-      if (surface.name == name)
+      if (surface.name == name || is_link_of(shown, surface.name, name))
         for (const Vec3& v : surface.vertices) found.extend(surface.pose.at + surface.pose.rotation * v);
     }
-    if (std::find(names.begin(), names.end(), name) == names.end())
+    if (found.isEmpty() && std::find(names.begin(), names.end(), name) == names.end())
       throw UsageError("view:save: 'fit': unknown name " + unknown_name(name, "rods and obstacles", names));
     box.extend(found);
   }
@@ -186,7 +214,11 @@ void add_solved(const SceneEquilibrium& eq, const PictureWish& wish, Picture& pi
 
 void compose_check(const Scene& scene, const SceneEquilibrium* eq, const PictureWish& wish) {
   std::vector<std::string> names;
-  for (const PlacedObstacle& obstacle : eq ? eq->obstacles : scene.bodies()) names.push_back(obstacle.name);
+  for (const PlacedObstacle& obstacle : eq ? eq->obstacles : scene.bodies()) {
+    names.push_back(obstacle.name);
+    const std::string robot = robot_of(obstacle);
+    if (!robot.empty() && std::find(names.begin(), names.end(), robot) == names.end()) names.push_back(robot);
+  }
   if (!wish.ghost) return;
   for (const std::string& name : *wish.ghost)
     if (std::find(names.begin(), names.end(), name) == names.end())
@@ -213,6 +245,7 @@ Picture compose_picture(const Scene& scene, const SceneEquilibrium* eq, const Pi
   if (!eq)
     for (const auto& rod : scene.rods())
       for (const Hold& hold : rod->holds()) shown.rods.extend(hold.frame.at);
+  if (eq) shown.carriers = box_of_carriers(*eq);
   add_surfaces(shown, wish, picture);
   if (eq) {
     add_solved(*eq, rod_wish, picture);

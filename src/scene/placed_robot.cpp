@@ -44,6 +44,7 @@ LinkBody body_of(const PlacedRobot& placed, int number) {
 void PlacedRobot::check(const char* caller) const {
   if (name.empty()) throw UsageError(std::string(caller) + ": the name is empty, expected a word");
   const std::string who = std::string(caller) + ": '" + name + "'";
+  if (name.find('.') != std::string::npos) throw UsageError(who + ": a robot's name cannot have a dot, which stands before its links' names");
   if (!robot) throw UsageError(who + ": no robot was given");
   if (!all_finite(base.at) || !all_finite(base.rotation.coeffs()) || std::abs(base.rotation.norm() - 1) > 1e-9)
     throw UsageError(who + ": 'at' is not a frame; finite numbers and a unit rotation expected");

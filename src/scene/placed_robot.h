@@ -22,7 +22,7 @@ struct PlacedRobot {
   /// The solid links, see link_bodies(): Scene::add() finds them.
   std::shared_ptr<const std::vector<LinkBody>> bodies = nullptr;
 
-  /// Throws UsageError for an empty name, a missing robot, numbers that are not finite, a negative clearance, and joint
+  /// Throws UsageError for an empty name or one with a dot, a missing robot, numbers that are not finite, a negative clearance, and joint
   /// values that do not fit the robot or are beyond its limits. Messages open with `who`.
   void check(const char* who = "scene:robot") const;
 

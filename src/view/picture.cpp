@@ -10,6 +10,8 @@ namespace {
 
 const std::vector<std::string> view_names{"iso", "front", "top", "side", "card"};
 
+constexpr int smallest_side = 16;  // pixels
+
 [[noreturn]] void refuse(const std::string& why) { throw UsageError("picture: " + why); }
 
 std::string quoted(const char* kind, const std::string& name) { return std::string(kind) + " '" + name + "': "; }
@@ -20,7 +22,7 @@ void check_finite(const Vec3& v, const std::string& who) {
 
 void check_page(const Picture& picture) {
   for (int size : {picture.width, picture.height})
-    if (size < 16 || size > 16384)
+    if (size < smallest_side || size > 16384)
       refuse("size " + std::to_string(picture.width) + " x " + std::to_string(picture.height) +
              " pixels, expected 16 ... 16384 each");
   if (static_cast<long long>(picture.width) * picture.height > 64'000'000)
@@ -110,6 +112,17 @@ bool shows_something(const Picture& picture) {
 
 void check_picture(const Picture& picture) {
   check_page(picture);
+  if (picture.columns < 0) refuse("got " + std::to_string(picture.columns) + " columns of panels, expected 0 or more");
+  const int columns = picture.columns > 0 ? picture.columns : static_cast<int>(picture.panels.size());
+  for (const Picture& panel : picture.panels) {
+    const int rows = static_cast<int>(picture.panels.size() + columns - 1) / columns;
+    if (picture.width / columns < smallest_side || picture.height / rows < smallest_side)
+      refuse("too small for " + std::to_string(picture.panels.size()) + " panels");
+    Picture alone = panel;
+    alone.panels.clear();
+    check_picture(alone);
+  }
+  if (!picture.panels.empty()) return;
   const bool card_alone = picture.views.size() == 1 && picture.views.front() == "card";
   if (card_alone ? picture.card.title.empty() && picture.card.rows.empty() : !shows_something(picture))
     refuse("nothing to show: no tube, no triangle, no path");

@@ -140,6 +140,11 @@ struct Picture {
   int width = 1600, height = 1200;  ///< pixels
   /// What every view shows, with 10 % to spare on each side. Default: the tubes; without tubes, everything.
   std::optional<PictureBox> fit;
+
+  /// Pictures that the page shows instead, in cells in reading order: views of one state each, as of a motion. Their own sizes
+  /// and panels do not count.
+  std::vector<Picture> panels;
+  int columns = 0;  ///< of panels; 0: all in one row
 };
 
 /// How the drawing went.

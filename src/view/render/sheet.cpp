@@ -25,10 +25,8 @@ class Stopwatch {
   RunContext::Clock::time_point since_ = RunContext::Clock::now();
 };
 
-/// Whole-pixel cells in reading order: one fills the page, two share its longer side, more stand in two columns (or
-/// three).
-std::vector<Rect> cells_of(int count, int width, int height) {
-  int columns = count == 1 ? 1 : count == 2 ? (width >= height ? 2 : 1) : count <= 4 ? 2 : (width >= height ? 3 : 2);
+/// Whole-pixel cells in reading order.
+std::vector<Rect> cells_in(int columns, int count, int width, int height) {
   const int rows = (count + columns - 1) / columns;
   std::vector<Rect> cells;
   for (int i = 0; i < count; ++i) {
@@ -38,6 +36,12 @@ std::vector<Rect> cells_of(int count, int width, int height) {
     cells.push_back({double(x0), double(y0), double(x1 - x0), double(y1 - y0)});
   }
   return cells;
+}
+
+/// One fills the page, two share its longer side, more stand in two columns (or three).
+std::vector<Rect> cells_of(int count, int width, int height) {
+  const int columns = count == 1 ? 1 : count == 2 ? (width >= height ? 2 : 1) : count <= 4 ? 2 : (width >= height ? 3 : 2);
+  return cells_in(columns, count, width, height);
 }
 
 bool has_values(const Picture& picture) {
@@ -102,9 +106,40 @@ void draw_title_in_view(Canvas& canvas, const Rect& cell, const std::string& tit
               {size, ink, true, Align::left, 2.5 * scale});
 }
 
+void draw_hairlines(Canvas& canvas, const std::vector<Rect>& cells) {
+  const Rgb hair{0.72f, 0.72f, 0.72f};
+  for (const Rect& cell : cells) {
+    if (cell.x > 0) canvas.box({cell.x - 0.5, cell.y, 1, cell.height}, hair);
+    if (cell.y > 0) canvas.box({cell.x, cell.y - 0.5, cell.width, 1}, hair);
+  }
+}
+
+/// Each panel as a page of its own, of the size of its cell.
+Image draw_panels(const Picture& picture, const RunContext& context, PictureReport& report) {
+  const int count = static_cast<int>(picture.panels.size());
+  Image page(picture.width, picture.height);
+  const Font plain("DejaVuSans.ttf"), bold("DejaVuSans-Bold.ttf");
+  Canvas canvas(page, plain, bold);
+  canvas.box({0, 0, double(page.width), double(page.height)}, paper);
+  const std::vector<Rect> cells = cells_in(picture.columns > 0 ? std::min(picture.columns, count) : count, count, picture.width, picture.height);
+  for (int k = 0; k < count && !context.stop(); ++k) {
+    Picture panel = picture.panels[k];
+    panel.panels.clear();
+    panel.width = static_cast<int>(cells[k].width);
+    panel.height = static_cast<int>(cells[k].height);
+    RunContext own = context;
+    if (context.progress)
+      own.progress = [&, k](double share, const char* what) { context.progress((k + share) / count, what); };
+    paste(draw_sheet(panel, own, report), cells[k], page);
+  }
+  draw_hairlines(canvas, cells);
+  return page;
+}
+
 }  // namespace
 
 Image draw_sheet(const Picture& picture, const RunContext& context, PictureReport& report) {
+  if (!picture.panels.empty()) return draw_panels(picture, context, report);
   Stopwatch watch(report);
   const Font plain("DejaVuSans.ttf"), bold("DejaVuSans-Bold.ttf");
   const std::vector<FitBall> balls = fit_balls(picture);
@@ -146,12 +181,7 @@ Image draw_sheet(const Picture& picture, const RunContext& context, PictureRepor
     }
     watch.step(view);
   }
-  if (cells.size() > 1)
-    for (const Rect& cell : cells) {  // hairlines between cells
-      const Rgb hair{0.72f, 0.72f, 0.72f};
-      if (cell.x > 0) canvas.box({cell.x - 0.5, cell.y, 1, cell.height}, hair);
-      if (cell.y > 0) canvas.box({cell.x, cell.y - 0.5, cell.width, 1}, hair);
-    }
+  draw_hairlines(canvas, cells);
   return page;
 }
 

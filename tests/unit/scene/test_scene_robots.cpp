@@ -207,6 +207,7 @@ TEST_CASE("what a robot in a scene refuses", "[scene][robot]") {
   scene.remove("crane.beam");
   CHECK_THROWS_WITH(scene.add(crane("hose")), Contains("already has a rod 'hose'"));
   CHECK_THROWS_WITH(scene.add(crane("")), Contains("name is empty"));
+  CHECK_THROWS_WITH(scene.add(crane("left.crane")), Contains("cannot have a dot"));
   CHECK_THROWS_WITH(scene.add(PlacedRobot{"arm", nullptr, {}}), Contains("no robot was given"));
   PlacedRobot wrong = crane();
   wrong.joints = {2.5};
