@@ -103,6 +103,7 @@ std::shared_ptr<SceneEquilibrium> scene_state(const Scene& scene, const ScenePac
 }
 
 std::shared_ptr<SceneEquilibrium> scene_state(const Scene& scene, const ScenePack& pack, const PackStep& step, PackStatics& statics) {
+  if (step.solved) return scene_state(scene, pack, step.q, *step.solved);
   SystemEquilibrium solved = statics.describe(step.state);
   for (Equilibrium& rod : solved.rods) {
     rod.status = Status::solved;
@@ -110,6 +111,16 @@ std::shared_ptr<SceneEquilibrium> scene_state(const Scene& scene, const ScenePac
     rod.message = "solved";
   }
   return scene_state(scene, pack, step.q, std::move(solved));
+}
+
+std::vector<std::shared_ptr<SceneEquilibrium>> scene_states(const Scene& scene, const ScenePack& pack, const std::vector<PackStep>& steps) {
+  std::unique_ptr<PackStatics> statics;
+  std::vector<std::shared_ptr<SceneEquilibrium>> states;
+  for (const PackStep& step : steps) {
+    if (!step.solved && !statics) statics = std::make_unique<PackStatics>(pack.problem);
+    states.push_back(step.solved ? scene_state(scene, pack, step.q, *step.solved) : scene_state(scene, pack, step, *statics));
+  }
+  return states;
 }
 
 }  // namespace tendril::dress_pack

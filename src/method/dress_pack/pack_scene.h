@@ -22,7 +22,9 @@ ScenePack pack_of(const Scene& scene, std::string_view robot);
 /// `scene` must be the one that the pack was made of, unchanged. Throws UsageError where `solved` has another number of rods.
 std::shared_ptr<SceneEquilibrium> scene_state(const Scene& scene, const ScenePack& pack, const JointVector& q, SystemEquilibrium solved);
 
-/// The same from a step of a simulation, which is an equilibrium. `statics` must be of this pack; it then stands at the step.
+/// The same from a step of a simulation, which is an equilibrium. `statics` must be of this pack.
 std::shared_ptr<SceneEquilibrium> scene_state(const Scene& scene, const ScenePack& pack, const PackStep& step, PackStatics& statics);
+/// ... and from all of them; packs with rods that slide, too.
+std::vector<std::shared_ptr<SceneEquilibrium>> scene_states(const Scene& scene, const ScenePack& pack, const std::vector<PackStep>& steps);
 
 }  // namespace tendril::dress_pack

@@ -172,6 +172,7 @@ class PackRun {
     step.t = t;
     step.q = path_.at(t);
     step.state = free_ ? state_ : state_of(in_contact_.here());
+    if (!free_) step.solved = std::make_shared<const SystemEquilibrium>(in_contact_.here());
     if (free_) reporter_.report(*statics_, step);
     else reporter_.report(in_contact_.here(), step);
     out.steps.push_back(std::move(step));

@@ -48,6 +48,7 @@ struct PackStep {
   std::vector<RodReport> rods;
   double residual = 0;         ///< N, largest unbalanced force, or moment over length
   RodState state;              ///< by node: PackStatics::describe() makes it an equilibrium
+  std::shared_ptr<const SystemEquilibrium> solved;  ///< where rods touch or slide: the ordinary solver's answer, contact forces included
 };
 
 struct PackSnap {

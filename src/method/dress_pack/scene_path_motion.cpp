@@ -44,17 +44,11 @@ SceneMotion move_robot(const Scene& scene, std::string_view robot, const JointPa
   SceneMotion out;
   out.status = moved.status;
   out.message = moved.message;
-  out.solves = moved.iterations;
-  PackStatics statics(pack.problem);
-  for (const PackStep& step : moved.steps) {
-    out.times.push_back(step.t);
-    out.equilibria.push_back(scene_state(scene, pack, step, statics));
-  }
+  out.solves = moved.contact_solutions;
+  for (const PackStep& step : moved.steps) out.times.push_back(step.t);
+  out.equilibria = scene_states(scene, pack, moved.steps);
   for (const PackSnap& snap : moved.snaps)
     out.snaps.push_back({pack.problem.names[snap.rod], {snap.t, snap.rod, farthest_move_at(out, snap.t, snap.rod), snap.move, snap.energy_drop}});
-  if (out.ok() && out.message.empty()) out.message = "solved";
-  if (out.ok() && !out.snaps.empty())
-    out.message = "solved, with " + std::to_string(out.snaps.size()) + " snap-through" + (out.snaps.size() > 1 ? "s" : "");
   out.seconds = moved.seconds;
   return out;
 }
