@@ -26,9 +26,9 @@ PackBodies::PackBodies(const PackProblem& pack) : pack_(pack), rigid_(rigid_grou
   }
   for (std::size_t k = 0; k < pack.rods.size(); ++k)
     for (const Hold& hold : pack.rods[k].holds)
-      if (hold.position) skips_.push_back({hold.at, 1, static_cast<int>(k), -1});
+      if (hold.position) skips_.push_back({hold.at, pack.rods[k].rod.section_at(hold.at).radius(), static_cast<int>(k), -1});
   for (const Attachment& a : pack.attachments)
-    skips_.push_back({pack.rods[a.rod].holds[a.hold].at, fitting_radii, a.rod, rigid_[a.link]});
+    skips_.push_back({pack.rods[a.rod].holds[a.hold].at, fitting_radii * pack.rods[a.rod].rod.section_at(pack.rods[a.rod].holds[a.hold].at).radius(), a.rod, rigid_[a.link]});
 }
 
 void PackBodies::poses(const JointVector& q, std::vector<BodyPose>& out) const {
@@ -63,10 +63,10 @@ bool PackBodies::passes(int body, const Vec3& from, const Vec3& to) const {
   return std::get<0>(shape)->tree().ray(from, to).has_value();
 }
 
-bool PackBodies::compared(int rod, double s, double radius, int body) const {
+bool PackBodies::compared(int rod, double s, int body) const {
   const int link = pack_.bodies[body].link;
   for (const Skip& skip : skips_) {
-    if (skip.rod != rod || std::abs(s - skip.at) > skip.reach * radius * (1 + 1e-9)) continue;
+    if (skip.rod != rod || std::abs(s - skip.at) > skip.reach * (1 + 1e-9)) continue;
     if (skip.group < 0 || (link >= 0 && rigid_[link] == skip.group)) return false;
   }
   return true;
@@ -84,7 +84,15 @@ void PackBodies::move(const JointVector& q) {
 }
 
 void PackBodies::surround(SystemProblem& system) const {
-  for (RodProblem& rod : system.rods) rod.surroundings = size() > 0 ? &surroundings_ : nullptr;
+  for (std::size_t k = 0; k < system.rods.size(); ++k) {
+    RodProblem& rod = system.rods[k];
+    rod.surroundings = size() > 0 ? &surroundings_ : nullptr;
+    rod.fastenings.clear();
+    for (const Attachment& a : pack_.attachments)
+      for (int b = 0; a.rod == static_cast<int>(k) && b < size(); ++b)
+        if (!fixed(b) && rigid_[pack_.bodies[b].link] == rigid_[a.link])
+          rod.fastenings.push_back({a.hold, b, fitting_radii * rod.rod.section_at(rod.holds[a.hold].at).radius()});
+  }
 }
 
 }  // namespace tendril::dress_pack

@@ -42,13 +42,13 @@ class PackBodies {
 
   /// A stretch of rod near a hold lies near the link that carries it: within four radii of arc length it is not compared with that
   /// link's bodies, nor within one radius of a held place with any.
-  bool compared(int rod, double s, double radius, int body) const;
+  bool compared(int rod, double s, int body) const;
 
   /// The links' bodies go where the robot has them.
   void move(const JointVector& q);
   const Surroundings& surroundings() const { return surroundings_; }
 
-  /// Gives the rods of a system made from the pack their surroundings, which are this object's.
+  /// Gives the rods of a system made from the pack their surroundings, which are this object's, and what they are fastened to.
   void surround(SystemProblem& system) const;
 
  private:

@@ -46,7 +46,7 @@ void PackGaps::finish() {
   for (int g = 0; g < static_cast<int>(segments_.size()); ++g)
     for (int p = segments_[g].first_point; p < segments_[g].last_point; ++p)
       for (int b = 0; b < bodies(); ++b) {
-        compared_[p * bodies() + b] = bodies_.compared(rod_of_[p], points_[p].s, points_[p].radius, b);
+        compared_[p * bodies() + b] = bodies_.compared(rod_of_[p], points_[p].s, b);
         segment_compared_[g * bodies() + b] |= compared_[p * bodies() + b];
       }
 }

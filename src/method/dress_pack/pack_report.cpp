@@ -63,7 +63,7 @@ void PackReporter::report(const SystemEquilibrium& equilibrium, PackStep& step) 
   step.residual = 0;
   for (const Equilibrium& rod : equilibrium.rods) {
     step.rods.push_back(report_of(rod));
-    for (const ContactForce& contact : rod.contacts) step.rods.back().contact += contact.force.norm();
+    step.rods.back().contacts = rod.contacts;
     step.residual = std::max(step.residual, rod.residual);
   }
   if (bodies_.size() == 0) return;

@@ -216,6 +216,12 @@ PackMotion simulate(const PackProblem& pack, const JointPath& path, const Simula
   return out;
 }
 
+double RodReport::contact_force() const {
+  double sum = 0;
+  for (const ContactForce& contact : contacts) sum += contact.force.norm();
+  return sum;
+}
+
 double PackMotion::largest_end_force() const {
   double most = 0;
   for (const PackStep& step : steps)

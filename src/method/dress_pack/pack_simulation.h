@@ -38,7 +38,8 @@ struct RodReport {
   double bend_radius = 0;  ///< m, the smallest
   double clearance = std::numeric_limits<double>::infinity();  ///< m, between the surfaces; infinite beyond 0.5 m; negative: overlap
   int body = -1;           ///< that is nearest; -1: none within reach
-  double contact = 0;      ///< N, the contact forces' sizes added up
+  std::vector<ContactForce> contacts = {};  ///< with the bodies' numbers
+  double contact_force() const;             ///< N, the sizes of the contact forces added up
 };
 
 struct PackStep {

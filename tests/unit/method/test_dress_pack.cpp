@@ -159,7 +159,6 @@ TEST_CASE("pack: what makes no sense is refused", "[dress_pack]") {
   refuses([](PackProblem& p) { p.attachments[0].in_link.rotation.w() = 3; }, "attachment 0: its rotation has the norm");
   refuses([](PackProblem& p) { p.base.at.x() = INFINITY; }, "the robot's base has no proper frame");
   refuses([](PackProblem& p) { p.rods[0].loads.push_back({0.5, Vec3::Zero(), Vec3::UnitX()}); }, "rod 0 carries a dead moment");
-  refuses([](PackProblem& p) { p.rods[0].holds.push_back({0.8, {{0.6, 0, 0}, Quat::Identity()}, true, true, 0, true}); }, "slides through a hold");
   refuses([](PackProblem& p) { p.rods[0].rod.length = -1; }, "length");
 }
 
