@@ -112,6 +112,10 @@ class RodSystem {
   /// Adds what hold k exerts on the rod (world axes), from the gradient of all terms.
   virtual void add_reaction(int hold, StateView state, const Vec6* gradient, Reaction& out) const = 0;
 
+  /// Adds what is not of the elements: -w.r and -F.r summed over nodes, the end terms of the fourth-order gravity rule, springs;
+  /// null `diagonal`: the gradient alone. Returns the energy.
+  double add_loads(StateView state, Vec6* gradient, Mat6* diagonal) const;
+
   /// Antisymmetric part of the second derivative: node and R^T m of every dead moment.
   struct MomentTerm {
     int node;
@@ -126,8 +130,6 @@ class RodSystem {
   double add_springs(StateView state, Vec6* gradient, Mat6* diagonal) const;
   double spring_energy(StateView state) const;
 
-  /// -w.r and -F.r summed over nodes, and the end terms of the fourth-order gravity rule.
-  double add_loads(StateView state, Vec6* gradient, Mat6* diagonal) const;
   void describe_loads(StateView state, Energy& energy) const;
 
   RodProblem problem_;

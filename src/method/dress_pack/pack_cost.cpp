@@ -39,7 +39,8 @@ SoftExcess soft_excess(double v, const Demand& demand) {
   const double z = (v - demand.limit) / (demand.scale * softness);
   // log(1 + e^z), without overflow.
   const double value = softness * (z > 0 ? z + std::log1p(std::exp(-z)) : std::log1p(std::exp(z)));
-  return {value, 1 / ((1 + std::exp(-z)) * demand.scale)};
+  const double share = 1 / (1 + std::exp(-z));
+  return {value, 1 / ((1 + std::exp(-z)) * demand.scale), share * (1 - share) / (softness * demand.scale * demand.scale)};
 }
 
 PackCost::PackCost(const PackStatics& statics, const PackDemands& demands) : demands_(demands) {

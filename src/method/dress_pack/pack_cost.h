@@ -30,9 +30,9 @@ struct PackDemands {
   void check() const;
 };
 
-/// softplus in units of the scale, a fifth of it soft, and its derivative.
+/// softplus in units of the scale, a fifth of it soft, and its first and second derivative.
 struct SoftExcess {
-  double value = 0, slope = 0;
+  double value = 0, slope = 0, bend = 0;
 };
 SoftExcess soft_excess(double v, const Demand& demand);
 

@@ -16,23 +16,6 @@ constexpr double smallest_step = 1e-9;    // rad
 using Clock = std::chrono::steady_clock;
 double since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
-void check(const ReducedOptions& options, const Robot& robot) {
-  options.demands.check();
-  if (options.steps < 1) throw UsageError("dress pack: " + std::to_string(options.steps) + " time steps, expected at least 1");
-  if (options.via < 0 || options.via == 1) throw UsageError("dress pack: " + std::to_string(options.via) + " via points, expected at least 2");
-  if (!(options.seconds >= 0) || !std::isfinite(options.seconds))
-    throw UsageError("dress pack: the path takes " + number_text(options.seconds) + " s, expected at least 0");
-  if (!(options.weights.effort >= 0) || !std::isfinite(options.weights.effort))
-    throw UsageError("dress pack: the weight of the path is " + number_text(options.weights.effort) + ", expected at least 0");
-  if (!options.weights.joints.empty() && static_cast<int>(options.weights.joints.size()) != robot.size())
-    throw UsageError("dress pack: " + std::to_string(options.weights.joints.size()) + " weights for " + std::to_string(robot.size()) + " joints");
-  for (const double weight : options.weights.joints)
-    if (!std::isfinite(weight) || weight < 0)
-      throw UsageError("dress pack: the weight of a joint is " + number_text(weight) + ", expected a number of at least 0");
-  if (!(options.tolerance > 0) || !(options.first_radius > 0) || !std::isfinite(options.first_radius))
-    throw UsageError("dress pack: tolerance and radius must be positive numbers");
-}
-
 class Search {
  public:
   Search(ReducedProblem& problem, const LinearLimits& limits, const ReducedOptions& options)
@@ -109,6 +92,23 @@ void compare(const ReducedProblem& problem, ReducedResult& out) {
 }
 
 }  // namespace
+
+void check(const ReducedOptions& options, const Robot& robot) {
+  options.demands.check();
+  if (options.steps < 1) throw UsageError("dress pack: " + std::to_string(options.steps) + " time steps, expected at least 1");
+  if (options.via < 0 || options.via == 1) throw UsageError("dress pack: " + std::to_string(options.via) + " via points, expected at least 2");
+  if (!(options.seconds >= 0) || !std::isfinite(options.seconds))
+    throw UsageError("dress pack: the path takes " + number_text(options.seconds) + " s, expected at least 0");
+  if (!(options.weights.effort >= 0) || !std::isfinite(options.weights.effort))
+    throw UsageError("dress pack: the weight of the path is " + number_text(options.weights.effort) + ", expected at least 0");
+  if (!options.weights.joints.empty() && static_cast<int>(options.weights.joints.size()) != robot.size())
+    throw UsageError("dress pack: " + std::to_string(options.weights.joints.size()) + " weights for " + std::to_string(robot.size()) + " joints");
+  for (const double weight : options.weights.joints)
+    if (!std::isfinite(weight) || weight < 0)
+      throw UsageError("dress pack: the weight of a joint is " + number_text(weight) + ", expected a number of at least 0");
+  if (!(options.tolerance > 0) || !(options.first_radius > 0) || !std::isfinite(options.first_radius))
+    throw UsageError("dress pack: tolerance and radius must be positive numbers");
+}
 
 LinearLimits limits_of(const Robot& robot, const JointPath& path, double seconds) {
   const int n = path.size(), free = std::max(0, path.points() - 2), size = n * free;

@@ -49,6 +49,9 @@ struct ReducedResult {
 /// Cancelled or out of time, the best path so far is returned. Throws UsageError for a pack or options that make no sense.
 ReducedResult optimise(const PackProblem& pack, const JointPath& path, const ReducedOptions& options = {}, const RunContext& context = {});
 
+/// Throws UsageError for options that make no sense.
+void check(const ReducedOptions& options, const Robot& robot);
+
 /// Joint and speed limits of the free via points, one after the other; `seconds` 0: joint limits alone.
 LinearLimits limits_of(const Robot& robot, const JointPath& path, double seconds);
 
