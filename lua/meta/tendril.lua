@@ -176,13 +176,29 @@ local explanation_methods = {}
 ---@return boolean
 function explanation_methods:uses(name) end
 
----The world: gravity, obstacles, rods and branch points
+---The world: gravity, obstacles, robots, rods and branch points
 ---@class scene
 ---@field branches (string)[] Names of the branch points
 ---@field gravity vec Acceleration (m/s^2)
 ---@field obstacles (string)[] Names of the obstacles
+---@field robots (string)[] Names of the robots
 ---@field rods (string)[] Names of the rods
 local scene_methods = {}
+
+---@class (exact) tendril.scene.attach.options
+---@field kind? "clamp"|"swivel"|"slide" What it holds: everything, the position only, or everything but sliding along d3 (default "clamp")
+---@field orientation? boolean False: the position only, as a swivel (default true)
+---@field turns? number Extra full turns about the tangent relative to the start (default 0)
+
+---Fastens a rod at "start", "finish" or an arc length in m to a robot's link; the frame is in the link's axes. The hold goes with the link. Over four radii from there the rod is not compared with that link.
+---@param rod string
+---@param where string|number
+---@param robot string
+---@param link string
+---@param frame frame
+---@param options? tendril.scene.attach.options
+---@return placed_rod
+function scene_methods:attach(rod, where, robot, link, frame, options) end
 
 ---@class (exact) tendril.scene.branch.options
 ---@field frame? frame Where the branch point is held, fully; default: free, it finds its place
@@ -207,7 +223,9 @@ function scene_methods:branch(name, places, options) end
 function scene_methods:explain(options) end
 
 ---@class (exact) tendril.scene.motion.options
----@field holds table<string, function|(frame)[]> By "rod.start", "rod.finish", "rod.0.25" (an arc length in m) or a branch point's name: a function of t = 0 ... 1 that returns a frame, or a list of frames passed evenly in t
+---@field holds? table<string, function|(frame)[]> By "rod.start", "rod.finish", "rod.0.25" (an arc length in m) or a branch point's name: a function of t = 0 ... 1 that returns a frame, or a list of frames passed evenly in t
+---@field robot? string Instead of holds: the robot that moves, with all rods of the scene attached to it
+---@field path? ((number)[])[] Its joint values, passed evenly in t and straight between (rad or m)
 ---@field steps? integer Solutions that are kept, evenly spaced in t (1 ... 1000000; default 20)
 ---@field largest_move? number Share of the length that a vertex may move in one step before it is halved (> 0 and <= 1; default 0.02)
 ---@field smallest_step? number Of t; a larger move over this is a snap-through (> 0 and <= 1; default 0.0001)
@@ -218,8 +236,8 @@ function scene_methods:explain(options) end
 ---@field error? boolean Also estimate the discretisation error (default false)
 ---@field timeout? number Give up after this time, with the best state so far; default: never (s; > 0 and <= 1000000000)
 
----Moves holds along paths, quasi-statically: each equilibrium starts from the one before, steps adapt, and a snap-through is reported with its place.
----@param options tendril.scene.motion.options
+---Moves holds along paths, or a robot and what is attached to it, quasi-statically: each equilibrium starts from the one before, steps adapt, and a snap-through is reported with its place.
+---@param options? tendril.scene.motion.options
 ---@return motion
 function scene_methods:motion(options) end
 
@@ -242,10 +260,27 @@ function scene_methods:obstacle(name, shape, options) end
 ---@return placed_rod
 function scene_methods:placed(name) end
 
----Removes a rod, a branch point or an obstacle.
+---The robot of this name.
+---@param name string
+---@return placed_robot
+function scene_methods:placed_robot(name) end
+
+---Removes a rod, a branch point, an obstacle, or a robot that carries no rod.
 ---@param name string
 ---@return scene
 function scene_methods:remove(name) end
+
+---@class (exact) tendril.scene.robot.options
+---@field at? frame Where its base stands: d1, d2, d3 are the base's x, y, z axes; default: the scene's axes
+---@field joints? (number)[] Joint values; default: each as near to 0 as its limits allow (rad or m)
+---@field clearance? number That rods are required to keep from its links (m; >= 0; default 0)
+
+---Places a robot. Its links are solid, called "name.link": rods touch them and keep clear of them as of obstacles.
+---@param name string
+---@param robot robot
+---@param options? tendril.scene.robot.options
+---@return placed_robot
+function scene_methods:robot(name, robot, options) end
 
 ---@class (exact) tendril.scene.rod.options
 ---@field from? frame Where the start is held, fully; default: free
@@ -569,6 +604,25 @@ function robot_methods:read_program(file, options) end
 ---@return boolean, string?
 function robot_methods:within_limits(q) end
 
+---A robot in a scene
+---@class placed_robot
+---@field at frame Where its base stands
+---@field design robot The robot itself
+---@field joints (number)[] Where its joints stand (rad or m)
+---@field name string Its name in the scene
+---@field rods (string)[] Names of the rods that are attached to it
+local placed_robot_methods = {}
+
+---Where a link is, in world axes.
+---@param link string
+---@return frame
+function placed_robot_methods:frame(link) end
+
+---Moves its joints, and with the links what is attached to them. An error where values are beyond the limits.
+---@param joints (number)[]
+---@return placed_robot
+function placed_robot_methods:move(joints) end
+
 ---Derivatives of a measure, by parameter: g["hose.length"]
 ---@class gradient
 ---@field derivatives table<string, number> By name, in SI units
@@ -670,6 +724,113 @@ function assembly_methods:hands_at(t) end
 ---@param path string
 ---@return saved_file
 function assembly_methods:save(path) end
+
+---A rod of a dress pack that left its equilibrium and came to rest in another one
+---@class pack_snap
+---@field energy_drop number Energy set free (J)
+---@field move number The farthest that a place on it moved (m)
+---@field t number Just after this share of the path
+local pack_snap_methods = {}
+
+---A dress pack that follows its robot along a path, from equilibrium to equilibrium
+---@class pack_motion
+---@field clearance number The smallest of the rods from obstacles and links; infinite: nothing is near (m)
+---@field length number Of the path, the joints together (rad or m)
+---@field max_tension number The largest force between a hold and its rod (N)
+---@field max_twist number The largest change against the unstressed rods (rad/m)
+---@field message string What there is to say about it
+---@field min_bend_radius number The smallest (m)
+---@field ok boolean It came to the end of the path
+---@field residual number The largest that was left unbalanced (N)
+---@field seconds number Run time (s)
+---@field snaps (pack_snap)[] Snap-throughs, in time order
+---@field tensions (number)[] The largest force of a hold at those times (N)
+---@field times (number)[] Shares of the path
+local pack_motion_methods = {}
+
+---The equilibrium, with the robot where it is, at the time step nearest to t = 0 ... 1.
+---@param t number
+---@return equilibrium
+function pack_motion_methods:frame(t) end
+
+---The robot's joint values at t = 0 ... 1.
+---@param t number
+---@return (number)[]
+function pack_motion_methods:joints(t) end
+
+---@class (exact) tendril.pack_motion.motion.options
+---@field states? integer Evenly spaced, first and last among them (1 ... 100000; default 40)
+
+---Its states as a motion: for envelopes, gaps and pictures.
+---@param options? tendril.pack_motion.motion.options
+---@return motion
+function pack_motion_methods:motion(options) end
+
+---One step of the search for a better path
+---@class search_step
+---@field accepted boolean The path was changed
+---@field objective number After it
+---@field radius number Of the trust region (rad)
+---@field step number Its length, all via points together (rad)
+local search_step_methods = {}
+
+---A limit that a motion does not keep: where it is worst
+---@class unmet_limit
+---@field at_end boolean Worst in the first or last configuration, which no via point changes
+---@field demanded number What was asked for (N, rad/m or m)
+---@field from number Not kept from this time
+---@field t number When
+---@field text string In words
+---@field to number to this
+---@field value number What it is (N, rad/m or m)
+---@field what string "tension", "twist", "bend_radius", "clearance" or "robot_clearance"
+---@field where string The hold, rod or link
+local unmet_limit_methods = {}
+
+---A robot's path for its hoses, before and after
+---@class dress_pack
+---@field after pack_motion The motion on the optimised path
+---@field before pack_motion The motion on the given path
+---@field given ((number)[])[] The path as it was, through as many via points (rad or m)
+---@field history (search_step)[] Of the search, step by step
+---@field message string What there is to say about it
+---@field objective number What the search made least
+---@field objective_before number The same where its last round began
+---@field ok boolean The path keeps all that is demanded
+---@field path ((number)[])[] Joint values of its via points (rad or m)
+---@field seconds number Run time (s)
+---@field status string "solved", "infeasible", "stalled", "cancelled", "timeout"
+---@field steps (step)[] Name, seconds, counts of each
+---@field unmet (unmet_limit)[] Limits that the optimised path does not keep
+---@field unmet_before (unmet_limit)[] Limits that the given path does not keep
+local dress_pack_methods = {}
+
+---@class (exact) tendril.dress_pack.chart.options
+---@field title? string Above it; default: "Dress pack"
+
+---What the rods bear over time on the given path and on the optimised one.
+---@param options? tendril.dress_pack.chart.options
+---@return sheet
+function dress_pack_methods:chart(options) end
+
+---The equilibrium on the optimised path at the time step nearest to t = 0 ... 1.
+---@param t number
+---@return equilibrium
+function dress_pack_methods:frame(t) end
+
+---@class (exact) tendril.dress_pack.program.options
+---@field name? string Of the program (default "path")
+---@field speed? number Share of the joints' velocities (> 0 and <= 1; default 0.5)
+---@field zone? number How near to each point but the first and last the corner may be cut; 0: stop at each (m; >= 0; default 0)
+---@field sign? (number)[] 1 or -1 for each joint: the controller shows sign * q + zero. Default of the map: that of the dialect's maker for upright arms of six axes
+---@field zero? (number)[] What the controller shows for each joint where q is 0; default with a sign: 0 (rad)
+---@field coupling? number How much of the second axis the third one shows on top; FANUC: -1 with sign -1; default with a sign: 0
+
+---The optimised path as the program of a robot controller, in text: "rapid", "krl", "urscript", "ls" or "csv".
+---@param dialect string
+---@param options? tendril.dress_pack.program.options
+---@return string
+function dress_pack_methods:program(dialect, options) end
 
 ---How an envelope was made
 ---@class envelope_report
@@ -1211,15 +1372,28 @@ local view_methods = {}
 ---@class (exact) tendril.view.save.options
 ---@field size? (integer)[] {width, height}; default {1600, 1200} (pixels)
 ---@field sheet? (string)[] Views in rows of two: "iso", "front", "top", "side", "card"; default iso, front, top and card
----@field frames? integer States of an assembly that are shown, the routed one among them (1 ... 100; default 6)
----@field fit? string|(string)[] Rod, obstacle or "envelope", or a list, that fills each view; default: rods and envelope
+---@field fit? string|(string)[] Rod, obstacle, robot or "envelope", or a list, that fills each view; default: rods, envelope and the robots that carry rods
 ---@field timeout? number Give up after this time, with the best state so far; default: never (s; > 0 and <= 1000000000)
+---@field frames? integer States of an assembly or a motion that are shown, the last one among them (1 ... 100; default 6)
 
 ---Draws it into a .png; a missing folder is created.
 ---@param path string
 ---@param options? tendril.view.save.options
 ---@return saved_file
 function view_methods:save(path, options) end
+
+---@class (exact) tendril.view.save_frames.options
+---@field size? (integer)[] {width, height}; default {1600, 1200} (pixels)
+---@field sheet? (string)[] Views in rows of two: "iso", "front", "top", "side", "card"; default iso, front, top and card
+---@field fit? string|(string)[] Rod, obstacle, robot or "envelope", or a list, that fills each view; default: rods, envelope and the robots that carry rods
+---@field timeout? number Give up after this time, with the best state so far; default: never (s; > 0 and <= 1000000000)
+---@field frames? integer How many, evenly spaced; default: all that the motion kept (1 ... 9999)
+
+---A motion's states as frame_0001.png, frame_0002.png ... in a folder, for an animation: all through the same camera.
+---@param folder string
+---@param options? tendril.view.save_frames.options
+---@return (saved_file)[]
+function view_methods:save_frames(folder, options) end
 
 ---A chart to be
 ---@class chart
@@ -1534,6 +1708,34 @@ method = {}
 ---@return assembly
 function method.assembly(scene, options) end
 
+---@class (exact) tendril.method.dress_pack.options
+---@field path ((number)[])[] Joint values of the via points; straight between them, all pieces take the same time (rad or m)
+---@field robot? string Its name in the scene; default: the only one
+---@field seconds? number That the path takes: the joints' speeds are kept; default: they are not looked at (s; > 0)
+---@field via? integer Via points of the optimised path, first and last among them; default: as many as given (2 ... 200)
+---@field max_tension? number Of the force between a hold and its rod; default: as little as can be (N; > 0)
+---@field max_twist? number Against the unstressed rod (rad/m; > 0)
+---@field min_bend_radius? number Of the rods (m; > 0)
+---@field clearance? number Of the rods from obstacles and links; default: they may touch (m; >= 0)
+---@field robot_clearance? number Of the links from obstacles; default: not looked at (m; >= 0)
+---@field steps? integer Time steps of the search (1 ... 100000; default 40)
+---@field checked_steps? integer Time steps of the simulations before and after (1 ... 100000; default 200)
+---@field optimise? boolean False: the given path is simulated, that is all (default true)
+---@field formulation? "reduced"|"direct" Unknowns of the search: "reduced", the via points alone; "direct", all states and stresses as well (default "reduced")
+---@field starts? integer Of the search: the given path and others that stray from it (1 ... 10000; default 1)
+---@field effort? number Weight of the path's length and unevenness against what the rods bear (>= 0; default 0.02)
+---@field weights? (number)[] Of the joints in the path's length; default: all 1
+---@field seed? integer Of all random numbers: the same seed gives the same bits (>= 0; default 1)
+---@field threads? integer At most; default: all that the machine has (1 ... 4096)
+---@field progress? function function(share, what), called now and then
+---@field timeout? number Give up after this time, with the best state so far; default: never (s; > 0 and <= 1000000000)
+
+---Simulates the hoses on a robot along a path, and moves its via points so that the hoses bear as little as demanded.
+---@param scene scene
+---@param options tendril.method.dress_pack.options
+---@return dress_pack
+function method.dress_pack(scene, options) end
+
 ---@class (exact) tendril.method.flatten.options
 ---@field rods? (string)[] Names; default: all of the scene, which must hang together
 ---@field spacing? number Least distance between axes of rods that do not meet; 0: four times the thickest radius (m; >= 0; default 0)
@@ -1779,7 +1981,7 @@ function method.variation(scene, options) end
 view = {}
 
 ---@class (exact) tendril.view.new.options
----@field [integer] scene|equilibrium|preform_result|hose|routes|assembly|board The scene, its equilibrium, hoses of method.preform (all, or one to colour it by its clearance), routes of method.route as they are nominally, an installation by method.assembly, a build board by method.flatten
+---@field [integer] scene|equilibrium|motion|preform_result|hose|routes|assembly|board The scene, its equilibrium, or a motion of it (a strip of its states; with an envelope the space swept), hoses of method.preform (all, or one to colour it by its clearance), routes of method.route as they are nominally, an installation by method.assembly, a build board by method.flatten
 ---@field color? string|(number)[]|stability What the rods' colour says: "clearance", "curvature", "tension", "twist", {r, g, b} from 0 to 1, or a stability: how far tolerances move it; default: clearance when there are obstacles, else curvature
 ---@field ghost? (string)[] Obstacles to see through, the others are solid; default: all
 ---@field envelope? mesh A shell around the rods to see through; with color = "clearance" its colours say how near obstacles are to it, and the rods are plain

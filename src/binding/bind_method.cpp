@@ -10,6 +10,7 @@ namespace tendril::lua {
 void bind_method(lua_State* L) {
   const auto builder = std::make_shared<EnvelopeBuilder>();
   bind_assembly(L);
+  bind_dress_pack(L);
   bind_envelope(L);
   bind_motion(L, builder);
   bind_flatten(L);
@@ -23,6 +24,7 @@ void bind_method(lua_State* L) {
   bind_variation(L, builder);
   Module method(L, "method", "What engineers do with scenes: analyses and searches that take a scene and never change it");
   add_assembly_to(method);
+  add_dress_pack_to(method);
   add_flatten_to(method);
   add_harness_to(method);
   add_preform_to(method);

@@ -155,7 +155,7 @@ PictureCard card_of(const SceneEquilibrium& eq, const std::vector<Gaps>& gaps, c
     card.rows.push_back({"estimated error", error->valid ? text("%.2g mm", error->value / units::mm) : "not valid", !error->valid});
   else
     card.rows.push_back({"estimated error", "not asked for", false});
-  card.rows.push_back({"solved in", seconds(eq.seconds), false});
+  if (eq.seconds > 0) card.rows.push_back({"solved in", seconds(eq.seconds), false});  // a state of a motion was not solved by itself
   card.rows.push_back({"tendril", TENDRIL_VERSION, false});
   return card;
 }

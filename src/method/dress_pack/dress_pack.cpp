@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "method/dress_pack/direct.h"
 
 namespace tendril::dress_pack {
 namespace {
@@ -87,7 +88,10 @@ class Method {
     search.weights = options_.weights;
     search.tolerance = options_.tolerance;
     search.most_iterations = options_.most_iterations;
-    return dress_pack::optimise(pack_, out_.path, search, context_);
+    if (options_.formulation == Formulation::reduced) return dress_pack::optimise(pack_, out_.path, search, context_);
+    DirectResult found = optimise_direct(pack_, out_.path, search, context_);
+    out_.violation = found.violation;
+    return found;
   }
 
   void simulate_found() {

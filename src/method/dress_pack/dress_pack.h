@@ -47,6 +47,7 @@ struct Result {
   std::vector<Unmet> unmet_before, unmet;
   double objective_before = 0, objective = 0;  ///< of the last round's demands
   int iterations = 0;
+  double violation = 0;         ///< of the direct formulation's equations and limits, see direct.h
   std::vector<ReducedIteration> history;
   std::vector<MethodStep> steps;
   double seconds = 0;

@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kept = 1e-3;           // of a limit
 constexpr double clearance_kept = 1e-5; // m
+constexpr double as_bad = 0.99;         // of how far the worst value is beyond its limit: an end of the path that is no better
 
 std::string millimetres(double metres) { return number_text(std::round(1e5 * metres) / 100) + " mm"; }
 
@@ -54,7 +55,15 @@ void look(const PackMotion& motion, const Watched& watched, std::vector<Unmet>& 
     any = true;
   }
   if (!any) return;
-  found.at_end = found.t == 0 || found.t == 1;
+  for (const PackStep* end : {&motion.steps.front(), &motion.steps.back()}) {
+    const double value = watched.value(*end);
+    if (end->t > 0 && end->t < 1) continue;  // the motion went no farther
+    if (!breaks(watched, value) || std::abs(value - watched.demanded) < as_bad * std::abs(found.value - watched.demanded)) continue;
+    found.at_end = true;
+    found.t = end->t;
+    found.value = value;
+    break;
+  }
   found.text = text_of(found);
   out.push_back(std::move(found));
 }

@@ -29,7 +29,7 @@ struct Unmet {
   double t = 0;                    ///< 0 ... 1
   double from = 0, to = 0;         ///< not kept between the first and the last of these times
   std::string where;               ///< "hose.start", "hose", or a link
-  bool at_end = false;             ///< worst in the first or last configuration, which no via point changes
+  bool at_end = false;             ///< the first or last configuration, which no via point changes, is as bad: then it is the one named
   std::string text;
 };
 

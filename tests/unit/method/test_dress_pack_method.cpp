@@ -142,7 +142,8 @@ TEST_CASE("dress pack: a limit that can be kept is kept, whatever its first weig
   CHECK_FALSE(never.ok);
   CHECK(never.status == Status::infeasible);
   REQUIRE_FALSE(never.unmet.empty());
-  CHECK_THAT(never.message, Contains("the best path found has a force of"));
+  CHECK_THAT(never.message, Contains("the best path found has a force of") && Contains("an end of the path"));
+  CHECK(never.unmet.front().at_end);
 }
 
 TEST_CASE("dress pack: without optimisation the given path is judged, no more", "[dress_pack]") {
