@@ -18,11 +18,13 @@ std::vector<int> rigid_groups(const Robot& robot) {
 
 }  // namespace
 
-PackBodies::PackBodies(const PackProblem& pack) : pack_(pack), rigid_(rigid_groups(*pack.robot)) {
+PackBodies::PackBodies(const PackProblem& pack, Sides sides) : pack_(pack), rigid_(rigid_groups(*pack.robot)) {
   for (const PackBody& body : pack.bodies) {
     surroundings_.add(body.body);
     const auto* mesh = std::get_if<std::shared_ptr<const TriangleSurface>>(&body.body.shape);
     boxes_.push_back(mesh ? (*mesh)->box() : tendril::box_of(std::get<Solid>(body.body.shape)));
+    const bool told = mesh && sides == Sides::of_meshes_too && (*mesh)->topology().watertight();
+    inside_.push_back(told ? std::make_shared<const InsideTest>((*mesh)->mesh()) : nullptr);
   }
   for (std::size_t k = 0; k < pack.rods.size(); ++k)
     for (const Hold& hold : pack.rods[k].holds)
@@ -52,6 +54,11 @@ BodyDistance PackBodies::distance(int body, const Vec3& in_body, double limit) c
     return found.distance < limit ? BodyDistance{found.distance, found.point, true} : nothing;
   }
   const DistanceTree::Nearest found = std::get<0>(shape)->tree().closest(in_body, limit);
+  if (to_box == 0 && inside_[body] && inside_[body]->inside(in_body)) {
+    // However deep: the surface is somewhere.
+    const DistanceTree::Nearest out = found.triangle < 0 ? std::get<0>(shape)->tree().closest(in_body) : found;
+    return {-out.distance, out.point, true};
+  }
   return found.triangle < 0 ? nothing : BodyDistance{found.distance, found.point, true};
 }
 

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "geometry/inside_test.h"
 #include "method/dress_pack/pack.h"
 
 namespace tendril::dress_pack {
@@ -16,21 +17,28 @@ struct BodyPose {
   Vec3 to_world(const Vec3& p) const { return axes * p + at; }
 };
 
-/// What the distance of a point from a body is, all in the body's axes. Solids: negative inside. Meshes: without sign.
+/// What the distance of a point from a body is, all in the body's axes. Negative inside solids, and inside closed meshes where
+/// sides are told.
 struct BodyDistance {
   double distance;  ///< m; the limit when the body is no nearer
   Vec3 point;       ///< of the surface
   bool found;
 };
 
+/// Whether points inside a closed mesh are told from those outside: it costs a test for each, and the mesh's topology.
+enum class Sides { as_solids, of_meshes_too };
+
 class PackBodies {
  public:
   /// The pack must outlive this. Throws UsageError for bodies that Surroundings refuses.
-  explicit PackBodies(const PackProblem& pack);
+  explicit PackBodies(const PackProblem& pack, Sides sides = Sides::as_solids);
 
   int size() const { return static_cast<int>(pack_.bodies.size()); }
   const PackProblem& pack() const { return pack_; }
   bool fixed(int body) const { return pack_.bodies[body].link < 0; }
+  /// On a link behind a joint that moves.
+  bool moves(int body) const { return !fixed(body) && rigid_[pack_.bodies[body].link] != 0; }
+  const Eigen::AlignedBox3d& own_box(int body) const { return boxes_[body]; }  ///< in its own axes, m
   std::string name(int body) const { return surroundings_.name(body); }
 
   void poses(const JointVector& q, std::vector<BodyPose>& out) const;
@@ -61,6 +69,7 @@ class PackBodies {
   };
   std::vector<Skip> skips_;
   std::vector<Eigen::AlignedBox3d> boxes_;  ///< in the bodies' axes, m
+  std::vector<std::shared_ptr<const InsideTest>> inside_;  ///< of closed meshes where sides are told, else null
 };
 
 }  // namespace tendril::dress_pack

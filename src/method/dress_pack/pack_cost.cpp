@@ -32,6 +32,8 @@ void PackDemands::check() const {
   dress_pack::check(force, "force", " N");
   dress_pack::check(twist, "twist", " rad/m");
   dress_pack::check(curvature, "curvature", " 1/m");
+  for (const double one : {clearance, robot_clearance})
+    if (!std::isfinite(one)) throw UsageError("dress pack: a clearance of " + number_text(one) + " m, expected a finite number");
 }
 
 SoftExcess soft_excess(double v, const Demand& demand) {

@@ -92,12 +92,29 @@ double PackGaps::point_bound(int p, int b, const Vec3& in_body, double needed, M
   return fresh.distance;
 }
 
-double PackGaps::gap_at(int rod, int segment, double s, const RodState& state, const BodyPose& pose, int body, double limit) const {
+PackGaps::Lowest PackGaps::lowest_at(int p, int body, const RodState& state, const PackPlaces& places) const {
+  const BodyPose& pose = places.bodies[body];
+  const auto look = [&](const ContactPoint& point, const Vec3& at) {
+    Lowest out{point, at, bodies_.distance(body, pose.to_body(at), 1e9), 0};
+    out.gap = out.found.distance - point.radius;
+    return out;
+  };
+  const Lowest here = look(points_[p], places.points[p]);
+  const int rod = rod_of_[p];
+  for (const int next : {p - 1, p + 1})
+    if (next < 0 || next >= points() || rod_of_[next] != rod || !compared_[next * bodies() + body]) return here;
+  const double back = points_[p].s - points_[p - 1].s, on = points_[p + 1].s - points_[p].s;
+  // Slopes to both sides.
+  const double a = (look(points_[p - 1], places.points[p - 1]).gap - here.gap) / back, c = (look(points_[p + 1], places.points[p + 1]).gap - here.gap) / on;
+  if (!(a + c > 0)) return here;
+  const double s = points_[p].s + std::clamp(0.5 * (on - c * (back + on) / (a + c)), -back, on);
   const Rod& r = rods_[rod];
+  const int segment = points_[s < points_[p].s ? p - 1 : p].segment;
   const VertexShape shape{{state.r.data() + r.first_node, r.s.size()}, {state.q.data() + r.first_node, r.s.size()}};
   const double share = std::clamp((s - r.s[segment]) / (r.s[segment + 1] - r.s[segment]), 0.0, 1.0);
   const ContactPoint point = contact_point_at(r.s, r.radii, Element::se3, segment, share);
-  return bodies_.distance(body, pose.to_body(position_of(point, shape)), limit + point.radius).distance - point.radius;
+  const Lowest between = look(point, position_of(point, shape));
+  return between.gap < here.gap ? between : here;
 }
 
 PackGaps::Nearest PackGaps::smallest(int rod, const RodState& state, const PackPlaces& places, double limit, Memory& memory) const {
@@ -119,19 +136,9 @@ PackGaps::Nearest PackGaps::smallest(int rod, const RodState& state, const PackP
       }
     }
   if (best.body < 0) return best;
-  // Between the points: where the parabola through the best one and its neighbours is lowest.
-  const int p = best.point;
-  for (const int next : {p - 1, p + 1})
-    if (next < 0 || next >= points() || rod_of_[next] != rod || !compared_[next * bodies() + best.body]) return best;
-  const BodyPose& pose = places.bodies[best.body];
-  const auto gap = [&](int i) { return bodies_.distance(best.body, pose.to_body(places.points[i]), 1e9).distance - points_[i].radius; };
-  const double back = points_[p].s - points_[p - 1].s, on = points_[p + 1].s - points_[p].s;
-  const double a = (gap(p - 1) - best.gap) / back, c = (gap(p + 1) - best.gap) / on;  // slopes to both sides, not negative
-  if (!(a + c > 0)) return best;
-  const double s = points_[p].s + 0.5 * (on - c * (back + on) / (a + c));
-  const int segment = points_[s < points_[p].s ? p - 1 : p].segment;
-  const double there = gap_at(rod, segment, s, state, pose, best.body, best.gap + 1);
-  if (there < best.gap) best.gap = there, best.s = s;
+  const Lowest lowest = lowest_at(best.point, best.body, state, places);
+  best.gap = lowest.gap;
+  best.s = lowest.point.s;
   return best;
 }
 

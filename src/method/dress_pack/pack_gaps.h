@@ -54,6 +54,15 @@ class PackGaps {
   /// The smallest gap of a rod below `limit` (m), also looked for between the points.
   Nearest smallest(int rod, const RodState& state, const PackPlaces& places, double limit, Memory& memory) const;
 
+  /// Between a point and its neighbours: where the parabola through their gaps from a body is lowest, if that is lower.
+  struct Lowest {
+    ContactPoint point;
+    Vec3 at = Vec3::Zero();      ///< m
+    BodyDistance found;          ///< in the body's axes
+    double gap = 0;              ///< m
+  };
+  Lowest lowest_at(int point, int body, const RodState& state, const PackPlaces& places) const;
+
   /// Calls visit(point, body, BodyDistance) for all points with a gap below `limit`.
   template <class Visit>
   void visit_near(const PackPlaces& places, double limit, Memory& memory, Visit visit) const;
@@ -83,7 +92,6 @@ class PackGaps {
   double segment_bound(int g, int b, const Vec3& in_body, double needed, Memory& memory) const;
   double point_bound(int p, int b, const Vec3& in_body, double needed, Memory& memory, BodyDistance* found) const;
   bool segment_stays_clear(int g, int b, const PackPlaces& before, const PackPlaces& after, double margin, Memory& memory) const;
-  double gap_at(int rod, int segment, double s, const RodState& state, const BodyPose& pose, int body, double limit) const;
 
   const PackBodies& bodies_;
   std::vector<Rod> rods_;

@@ -81,6 +81,9 @@ void PackReporter::add_clearances(const PackGaps& gaps, PackStep& step) {
     step.rods[k].clearance = near.gap;
     step.rods[k].body = near.body;
   }
+  if (!links_) return;
+  const LinkGap near = links_->smallest(step.q, clearance_reach, link_memory_);
+  if (near.body >= 0) step.robot = {near.gap, bodies_.pack().bodies[near.body].link, near.other};
 }
 
 }  // namespace tendril::dress_pack

@@ -5,13 +5,17 @@
 
 #include "method/dress_pack/pack_gaps.h"
 #include "method/dress_pack/pack_simulation.h"
+#include "method/dress_pack/robot_gaps.h"
 
 namespace tendril::dress_pack {
 
 /// Fills ends, rods and residual of a step.
 class PackReporter {
  public:
-  explicit PackReporter(const PackBodies& bodies) : bodies_(bodies) {}
+  /// `links`: also says how far the robot's links are from the fixed bodies.
+  PackReporter(const PackBodies& bodies, bool links) : bodies_(bodies) {
+    if (links) links_.emplace(bodies);
+  }
 
   /// From its state, of a pack that touches nothing.
   void report(PackStatics& statics, PackStep& step);
@@ -26,6 +30,8 @@ class PackReporter {
   std::optional<PackGaps> gaps_;
   PackGaps::Memory memory_;
   PackPlaces places_;
+  std::optional<RobotGaps> links_;
+  RobotGaps::Memory link_memory_;
   std::vector<Equilibrium> rods_;
   std::vector<Vec6> gradient_;
 };

@@ -64,7 +64,7 @@ class GapWatch final : public MotionWatch {
 class PackRun {
  public:
   PackRun(const PackProblem& pack, const JointPath& path, const SimulationOptions& options)
-      : path_(path), times_(JointPath::times(options.steps)), bodies_(pack), reporter_(bodies_),
+      : path_(path), times_(JointPath::times(options.steps)), bodies_(pack), reporter_(bodies_, options.robot_clearance),
         in_contact_(bodies_, {options.largest_turn, options.smallest_turn, options.tolerance, options.most_solutions}) {
     if (pack.slides()) return;
     statics_ = std::make_unique<PackStatics>(pack);
@@ -237,6 +237,11 @@ double PackMotion::largest_twist() const {
 }
 double PackMotion::smallest_bend_radius() const {
   return -largest_of(steps, [](const RodReport& rod) { return -rod.bend_radius; });
+}
+double PackMotion::smallest_robot_clearance() const {
+  double least = std::numeric_limits<double>::infinity();
+  for (const PackStep& step : steps) least = std::min(least, step.robot.clearance);
+  return least;
 }
 double PackMotion::smallest_clearance() const {
   return -largest_of(steps, [](const RodReport& rod) { return -rod.clearance; });

@@ -23,6 +23,7 @@ struct SimulationOptions {
   double largest_turn = 0.25;  ///< rad or m, of a joint in one motion
   double smallest_turn = 1e-4; ///< rad or m; what happens within it is a snap-through
   double tolerance = 1e-9;     ///< see SolveOptions
+  bool robot_clearance = false; ///< also look how far the links' bodies are from the fixed ones
   int most_solutions = 5000;   ///< with contact or sliding; then the motion has stalled
 };
 
@@ -42,11 +43,18 @@ struct RodReport {
   double contact_force() const;             ///< N, the sizes of the contact forces added up
 };
 
+/// The link's body that is nearest to a fixed one.
+struct RobotReport {
+  double clearance = std::numeric_limits<double>::infinity();  ///< m; infinite beyond 0.5 m; 0 or less where they meet
+  int link = -1, body = -1;                                    ///< the robot's link; the fixed body
+};
+
 struct PackStep {
   double t = 0;                ///< 0 ... 1
   JointVector q;
   std::vector<EndLoad> ends;   ///< by attachment
   std::vector<RodReport> rods;
+  RobotReport robot;           ///< where SimulationOptions ask for it
   double residual = 0;         ///< N, largest unbalanced force, or moment over length
   RodState state;              ///< by node: PackStatics::describe() makes it an equilibrium
   std::shared_ptr<const SystemEquilibrium> solved;  ///< where rods touch or slide: the ordinary solver's answer, contact forces included
@@ -74,6 +82,7 @@ struct PackMotion {
   double largest_twist() const;        ///< rad/m
   double smallest_bend_radius() const; ///< m
   double smallest_clearance() const;   ///< m
+  double smallest_robot_clearance() const; ///< m
 };
 
 /// Throws UsageError for a pack or options that make no sense. A path beyond the robot's limits is refused as infeasible, with the

@@ -6,84 +6,20 @@
 
 #include "base/error.h"
 #include "base/number_text.h"
+#include "method/dress_pack/clearance_search.h"
+#include "method/dress_pack/trust_search.h"
 
 namespace tendril::dress_pack {
 namespace {
 
-constexpr double smallest_radius = 1e-9;  // rad
-constexpr double smallest_step = 1e-9;    // rad
-
 using Clock = std::chrono::steady_clock;
 double since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
-
-class Search {
- public:
-  Search(ReducedProblem& problem, const LinearLimits& limits, const ReducedOptions& options)
-      : problem_(problem), limits_(limits), options_(options), radius_(options.first_radius) {}
-
-  void run(const RunContext& context, ReducedResult& out) {
-    out.status = Status::solved;
-    out.message = "solved";
-    if (problem_.variables() == 0) return;
-    bool stale = true;
-    while (out.iterations < options_.most_iterations) {
-      if (stop(context, out)) return;
-      if (stale && !problem_.derivatives(gradient_, hessian_, context)) {
-        if (!stop(context, out)) fail("a state is not stable", out);
-        return;
-      }
-      const Eigen::VectorXd u = problem_.values();
-      const TrustStep step = trust_step(gradient_, hessian_, limits_, u, radius_);
-      const double size = step.step.norm();
-      if (step.reduction <= options_.tolerance * std::abs(problem_.objective()) && !step.at_edge) return;
-      if (size < smallest_step) return;
-      if (radius_ < smallest_radius) return fail("no step improves the path any more", out);
-      ++out.iterations;
-      const ReducedProblem::Trial trial = problem_.try_values(u + step.step, context);
-      if (stop(context, out)) return;
-      stale = judge(step, size, trial, out);
-      if (context.progress) context.progress(std::min(0.99, out.iterations / (out.iterations + 5.0)), "optimisation");
-    }
-    fail("not finished in " + std::to_string(options_.most_iterations) + " iterations", out);
-  }
-
- private:
-  bool judge(const TrustStep& step, double size, const ReducedProblem::Trial& trial, ReducedResult& out) {
-    const double gain = trial.ok() ? problem_.objective() - trial.objective : -1;
-    const double ratio = gain / std::max(step.reduction, 1e-300);
-    const bool accepted = trial.ok() && gain > 0 && ratio > 1e-4;
-    out.history.push_back({accepted ? trial.objective : problem_.objective(), size, radius_, accepted});
-    if (ratio < 0.25) radius_ = 0.3 * size;
-    if (ratio > 0.7 && step.at_edge) radius_ *= 2;
-    if (accepted) problem_.accept();
-    return accepted;
-  }
-
-  static bool stop(const RunContext& context, ReducedResult& out) {
-    const auto why = context.stop();
-    if (!why) return false;
-    out.status = *why;
-    out.message = *why == Status::timeout ? "out of time; this is the best path so far" : "interrupted; this is the best path so far";
-    return true;
-  }
-  static void fail(const std::string& why, ReducedResult& out) {
-    out.status = Status::stalled;
-    out.message = why + "; this is the best path so far";
-  }
-
-  ReducedProblem& problem_;
-  const LinearLimits& limits_;
-  const ReducedOptions& options_;
-  double radius_;
-  Eigen::VectorXd gradient_;
-  Eigen::MatrixXd hessian_;
-};
 
 /// Followed from its start, the rods on the optimised path may take another way than those that were moved there.
 void compare(const ReducedProblem& problem, ReducedResult& out) {
   if (!out.ok() || !out.after.ok()) return;
   double most = 0;
-  for (std::size_t k = 0; k < problem.states().size(); ++k)
+  for (std::size_t k = 0; k < std::min(problem.states().size(), out.after.steps.size()); ++k)
     for (std::size_t i = 0; i < problem.states()[k].r.size(); ++i)
       most = std::max(most, (problem.states()[k].r[i] - out.after.steps[k].state.r[i]).norm());
   if (most > 1e-3)
@@ -146,15 +82,76 @@ LinearLimits limits_of(const Robot& robot, const JointPath& path, double seconds
   return out;
 }
 
+namespace {
+
+constexpr int finer = 5;        // times the time steps of the search, where clearances are verified
+constexpr int most_rounds = 3;  // of tightening, when they fall short between the time steps
+
+/// The path as found, simulated among the bodies at more time steps than the search had; keeps every so-manieth.
+PackMotion verified(const PackProblem& pack, const ReducedOptions& options, const RunContext& context, ReducedResult& out) {
+  SimulationOptions simulation;
+  simulation.steps = finer * options.steps;
+  simulation.robot_clearance = options.demands.robot_clearance >= 0;
+  PackMotion motion = simulate(pack, out.path, simulation, context);
+  out.clearance = motion.smallest_clearance();
+  out.robot_clearance = motion.smallest_robot_clearance();
+  std::vector<PackStep> kept;
+  for (std::size_t k = 0; k < motion.steps.size(); k += finer) kept.push_back(std::move(motion.steps[k]));
+  motion.steps = std::move(kept);
+  return motion;
+}
+
+double missing_between(const ReducedOptions& options, const ReducedResult& out) {
+  double missing = 0;
+  if (options.demands.clearance >= 0) missing = std::max(missing, options.demands.clearance - out.clearance);
+  if (options.demands.robot_clearance >= 0) missing = std::max(missing, options.demands.robot_clearance - out.robot_clearance);
+  return missing;
+}
+
+/// Searches with clearances, verifies, and asks for more where they fall short between the time steps.
+void search_clear(const PackProblem& pack, ReducedProblem& problem, const LinearLimits& limits, const ReducedOptions& options,
+                  const RunContext& context, ReducedResult& out) {
+  ClearanceSearch search(problem, limits, options);
+  const std::string refused = search.ends_refused();
+  if (!refused.empty()) {
+    out.status = Status::infeasible;
+    out.message = refused;
+    return;
+  }
+  double reserve = 0;
+  for (int round = 0; round < most_rounds; ++round) {
+    const bool found = search.run(reserve, context, out);
+    out.path = problem.path();
+    out.objective = problem.plain_objective();
+    const Clock::time_point begin = Clock::now();
+    out.after = verified(pack, options, context, out);
+    out.verification_seconds += since(begin);
+    if (!found || out.status != Status::solved) return;
+    if (!out.after.ok()) {
+      out.status = out.after.status;
+      out.message = "the path that was found, followed among the bodies: " + out.after.message;
+      return;
+    }
+    const double missing = missing_between(options, out);
+    if (missing <= clearance_tolerance) return;
+    reserve += 1.1 * missing;
+  }
+  out.status = Status::infeasible;
+  out.message = "between the time steps clearances fall short by " + number_text(1e3 * missing_between(options, out)) + " mm; give more time steps";
+}
+
+}  // namespace
+
 ReducedResult optimise(const PackProblem& given, const JointPath& given_path, const ReducedOptions& options, const RunContext& context) {
   given.check();
   check(options, *given.robot);
   const Clock::time_point begin = Clock::now();
-  PackProblem pack = given;
-  pack.bodies.clear();
+  const bool clear = options.demands.clearance >= 0 || options.demands.robot_clearance >= 0;
+  PackProblem bare = given;
+  bare.bodies.clear();
   ReducedResult out;
   out.path = options.via > 0 ? given_path.resampled(options.via) : given_path;
-  const std::string beyond = beyond_robot(out.path, *pack.robot, options.seconds);
+  const std::string beyond = beyond_robot(out.path, *given.robot, options.seconds);
   if (!beyond.empty()) {
     out.status = Status::infeasible;
     out.message = "the path cannot be improved from where it starts: " + beyond;
@@ -162,9 +159,9 @@ ReducedResult optimise(const PackProblem& given, const JointPath& given_path, co
   }
   SimulationOptions simulation;
   simulation.steps = options.steps;
-  out.before = simulate(pack, out.path, simulation, context);
+  out.before = simulate(bare, out.path, simulation, context);
   const Clock::time_point search_begin = Clock::now();
-  ReducedProblem problem(pack, out.path, options.steps, options.demands, options.weights);
+  ReducedProblem problem(given, out.path, options.steps, options.demands, options.weights);
   const PackFollower::Outcome start = problem.start(context);
   if (!start.ok()) {
     const bool stopped = start.status == Status::cancelled || start.status == Status::timeout;
@@ -172,13 +169,17 @@ ReducedResult optimise(const PackProblem& given, const JointPath& given_path, co
     out.message = stopped ? "interrupted before the path was followed once" : "the rods cannot follow the path: " + out.before.message;
     return out;
   }
-  out.objective_before = problem.objective();
-  const LinearLimits limits = limits_of(*pack.robot, out.path, options.seconds);
-  Search(problem, limits, options).run(context, out);
-  out.search_seconds = since(search_begin);
-  out.objective = problem.objective();
-  out.path = problem.path();
-  out.after = simulate(pack, out.path, simulation, context);
+  out.objective = out.objective_before = problem.plain_objective();
+  const LinearLimits limits = limits_of(*given.robot, out.path, options.seconds);
+  if (clear) {
+    search_clear(given, problem, limits, options, context, out);
+  } else {
+    trust_search(problem, limits, {options.tolerance, options.most_iterations, options.first_radius}, context, out);
+    out.objective = problem.plain_objective();
+    out.path = problem.path();
+  }
+  out.search_seconds = since(search_begin) - out.verification_seconds;
+  if (!clear) out.after = simulate(bare, out.path, simulation, context);
   compare(problem, out);
   out.seconds = since(begin);
   return out;

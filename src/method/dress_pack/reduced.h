@@ -4,7 +4,9 @@
 // at every iterate; the first and the last via point stay. A local optimum of the given path's kind is found: a rod that would have to
 // snap through on the way is kept from it. What the first or the last configuration demands no via point can lower.
 //
-// Not done: contact and clearance. The optimised path is to be simulated with its surroundings (pack_simulation.h).
+// Where clearances are demanded (PackDemands), they hold at every iterate that counts, for rods and links (clearance_search.h), and the
+// path is verified by a simulation at five times the time steps.
+// Not done: contact: a rod that must touch on the way cannot keep a clearance.
 #pragma once
 
 #include <string>
@@ -39,13 +41,17 @@ struct ReducedResult {
   double objective_before = 0, objective = 0;
   int iterations = 0;
   std::vector<ReducedIteration> history;
-  PackMotion before, after;     ///< simulated from the start, without surroundings
+  PackMotion before, after;     ///< simulated from the start; `after` among the bodies where clearances are demanded
+  /// The smallest of rods and of links that were verified, m; infinite where nothing was demanded or near.
+  double clearance = std::numeric_limits<double>::infinity(), robot_clearance = std::numeric_limits<double>::infinity();
   double seconds = 0;           ///< in all; of the optimisation alone:
   double search_seconds = 0;
+  double verification_seconds = 0;  ///< of the simulations that verify clearances
   bool ok() const { return status == Status::solved; }
 };
 
-/// A path that begins beyond the robot's limits, or on which the rods find no equilibrium, is refused as infeasible, with the reason.
+/// A path that begins beyond the robot's limits, on which the rods find no equilibrium, or whose ends do not keep the clearances, is
+/// refused as infeasible, with the reason; so is one for which no path with these clearances was found: where and how much is missing.
 /// Cancelled or out of time, the best path so far is returned. Throws UsageError for a pack or options that make no sense.
 ReducedResult optimise(const PackProblem& pack, const JointPath& path, const ReducedOptions& options = {}, const RunContext& context = {});
 

@@ -18,7 +18,8 @@ FollowLimits limits_of(bool may_snap) {
 ReducedProblem::ReducedProblem(const PackProblem& pack, const JointPath& path, int steps, const PackDemands& demands,
                                const PathWeights& weights)
     : pack_(pack), path_(path), trial_path_(path), times_(JointPath::times(steps)), weights_(weights), statics_(pack),
-      cost_(statics_, demands), states_(times_.size()), trial_states_(times_.size()), costs_(times_.size()), trial_costs_(times_.size()) {}
+      cost_(statics_, demands), states_(times_.size()), trial_states_(times_.size()), costs_(times_.size()), trial_costs_(times_.size()),
+      clearances_(statics_, demands, static_cast<int>(times_.size())) {}
 
 PackFollower::Outcome ReducedProblem::start(const RunContext& context) {
   PackFollower follower(statics_, limits_of(true));
@@ -37,9 +38,9 @@ PackFollower::Outcome ReducedProblem::start(const RunContext& context) {
       t = there;
     }
     states_[k] = state;
-    costs_[k] = state_cost(state);
+    costs_[k] = state_cost(state, k, path_.at(times_[k]));
   }
-  objective_ = total(costs_, path_);
+  objective_ = total(costs_, path_, &plain_);
   way.snaps = snaps;
   return way;
 }
@@ -68,11 +69,11 @@ ReducedProblem::Trial ReducedProblem::try_values(const Eigen::VectorXd& u, const
       const PackFollower::Outcome way = follower.advance(trial_states_[k], from, to, context);
       out.status = way.status;
       if (!way.ok()) return out;
-      trial_costs_[k] = state_cost(trial_states_[k]);
+      trial_costs_[k] = state_cost(trial_states_[k], k, to);
     }
   }
   out.status = Status::solved;
-  out.objective = total(trial_costs_, trial_path_);
+  out.objective = total(trial_costs_, trial_path_, nullptr);
   return out;
 }
 
@@ -80,7 +81,7 @@ void ReducedProblem::accept() {
   path_ = trial_path_;
   std::swap(states_, trial_states_);
   std::swap(costs_, trial_costs_);
-  objective_ = total(costs_, path_);
+  objective_ = total(costs_, path_, &plain_);
 }
 
 double ReducedProblem::share(std::size_t k) const {
@@ -88,27 +89,33 @@ double ReducedProblem::share(std::size_t k) const {
   return k == 0 || k + 1 == times_.size() ? 0.5 * whole : whole;
 }
 
-double ReducedProblem::total(const std::vector<double>& costs, const JointPath& path) const {
-  double sum = 0;
-  for (std::size_t k = 0; k < costs.size(); ++k) sum += share(k) * costs[k];
-  return sum + weights_.effort * path.effort(weights_.joints);
+double ReducedProblem::total(const std::vector<Cost>& costs, const JointPath& path, double* plain) const {
+  double sum = weights_.effort * path.effort(weights_.joints), penalty = 0;
+  for (std::size_t k = 0; k < costs.size(); ++k) {
+    sum += share(k) * costs[k].plain;
+    penalty += share(k) * costs[k].penalty;
+  }
+  if (plain) *plain = sum;
+  return sum + penalty;
 }
 
-double ReducedProblem::state_cost(const RodState& state) {
+ReducedProblem::Cost ReducedProblem::state_cost(const RodState& state, std::size_t k, const JointVector& q) {
   statics_.load_at(state);
-  return cost_.value(statics_, state);
+  return {cost_.value(statics_, state), clearances_.penalty(state, q, static_cast<int>(k))};
 }
 
-bool ReducedProblem::state_gradient(const RodState& state, const JointVector& q, JointVector& out) {
+bool ReducedProblem::state_gradient(const RodState& state, std::size_t k, const JointVector& q, JointVector& out) {
   if (!statics_.stand_at(state)) return false;
   cost_.slopes(statics_, state, by_load_, by_node_);
+  JointVector of_bodies = JointVector::Zero(joints());
+  clearances_.penalty(state, q, static_cast<int>(k), by_node_, of_bodies);
   pack_.jacobian(q, jacobian_);
-  out = jacobian_.transpose() * statics_.pull_back(by_load_, by_node_);
+  out = jacobian_.transpose() * statics_.pull_back(by_load_, by_node_) + of_bodies;
   return true;
 }
 
-bool ReducedProblem::state_hessian(const RodState& state, const JointVector& q, JointVector& gradient, Eigen::MatrixXd& hessian) {
-  if (!state_gradient(state, q, gradient)) return false;
+bool ReducedProblem::state_hessian(const RodState& state, std::size_t k, const JointVector& q, JointVector& gradient, Eigen::MatrixXd& hessian) {
+  if (!state_gradient(state, k, q, gradient)) return false;
   const int n = joints();
   std::vector<RodState> near(n, state);
   std::vector<Vec6> step;
@@ -119,10 +126,76 @@ bool ReducedProblem::state_hessian(const RodState& state, const JointVector& q, 
   hessian.resize(n, n);
   JointVector there;
   for (int j = 0; j < n; ++j) {
-    if (!state_gradient(near[j], q + difference * JointVector::Unit(n, j), there)) return false;
+    if (!state_gradient(near[j], k, q + difference * JointVector::Unit(n, j), there)) return false;
     hessian.col(j) = (there - gradient) / difference;
   }
   hessian = 0.5 * (hessian + hessian.transpose()).eval();
+  return true;
+}
+
+void ReducedProblem::set_clearances(double weight, double reserve) {
+  clearances_.set_weight(weight);
+  clearances_.set_reserve(reserve);
+  for (std::size_t k = 0; k < times_.size(); ++k)
+    costs_[k].penalty = clearances_.penalty(states_[k], path_.at(times_[k]), static_cast<int>(k));
+  objective_ = total(costs_, path_, &plain_);
+}
+
+std::optional<ReducedProblem::Shortest> ReducedProblem::shortest_of(const std::vector<RodState>& states, const JointPath& path) {
+  std::optional<Shortest> out;
+  for (std::size_t k = 0; clearances_.any() && k < times_.size(); ++k) {
+    std::optional<ClearanceRow> row = clearances_.worst(states[k], path.at(times_[k]), static_cast<int>(k));
+    if (!row || (out && row->wanted - row->gap <= out->missing())) continue;
+    out = Shortest{std::move(*row), times_[k]};
+  }
+  return out;
+}
+
+std::optional<ReducedProblem::Shortest> ReducedProblem::shortest() { return shortest_of(states_, path_); }
+std::optional<ReducedProblem::Shortest> ReducedProblem::trial_shortest() { return shortest_of(trial_states_, trial_path_); }
+
+std::optional<ReducedProblem::Shortest> ReducedProblem::shortest_at(std::size_t k) {
+  if (!clearances_.any()) return std::nullopt;
+  std::optional<ClearanceRow> row = clearances_.worst(states_[k], path_.at(times_[k]), static_cast<int>(k));
+  if (!row) return std::nullopt;
+  return Shortest{std::move(*row), times_[k]};
+}
+
+std::vector<double> ReducedProblem::trial_missing() {
+  std::vector<double> out(times_.size(), 0);
+  for (std::size_t k = 0; clearances_.any() && k < times_.size(); ++k)
+    if (const auto row = clearances_.worst(trial_states_[k], trial_path_.at(times_[k]), static_cast<int>(k))) out[k] = row->wanted - row->gap;
+  return out;
+}
+
+bool ReducedProblem::gap_limits(double margin, GapLimits& out) {
+  out = {};
+  std::vector<ClearanceRow> near;
+  std::vector<Eigen::VectorXd> rows;
+  std::vector<double> most;
+  const Eigen::VectorXd u = values();
+  for (std::size_t k = 0; k < times_.size(); ++k) {
+    bool wanted = false;
+    at_points(times_[k], [&](int, double) { wanted = true; });
+    if (!wanted) continue;
+    if (!statics_.stand_at(states_[k])) return false;
+    clearances_.near(statics_, states_[k], path_.at(times_[k]), static_cast<int>(k), margin, near);
+    for (ClearanceRow& one : near) {
+      Eigen::VectorXd row = Eigen::VectorXd::Zero(variables());
+      at_points(times_[k], [&](int j, double w) { row.segment(j * joints(), joints()) -= w * one.slope; });
+      // What is missing already may stay missing, but no more of it.
+      most.push_back(row.dot(u) + std::max(0.0, one.gap - one.wanted));
+      rows.push_back(std::move(row));
+      out.steps.push_back(k);
+      out.rows.push_back(std::move(one));
+    }
+  }
+  out.limits.rows.resize(static_cast<int>(rows.size()), variables());
+  out.limits.most.resize(static_cast<int>(rows.size()));
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    out.limits.rows.row(static_cast<int>(i)) = rows[i].transpose();
+    out.limits.most[static_cast<int>(i)] = most[i];
+  }
   return true;
 }
 
@@ -162,7 +235,7 @@ bool ReducedProblem::gradient(Eigen::VectorXd& out) {
     bool wanted = false;
     at_points(times_[k], [&](int, double) { wanted = true; });
     if (!wanted) continue;
-    if (!state_gradient(states_[k], path_.at(times_[k]), slope)) return false;
+    if (!state_gradient(states_[k], k, path_.at(times_[k]), slope)) return false;
     at_points(times_[k], [&](int j, double w) { out.segment(j * n, n) += share(k) * w * slope; });
   }
   add_effort(out, nullptr);
@@ -179,7 +252,7 @@ bool ReducedProblem::derivatives(Eigen::VectorXd& gradient, Eigen::MatrixXd& hes
     bool wanted = false;
     at_points(times_[k], [&](int, double) { wanted = true; });
     if (!wanted) continue;
-    if (context.stop() || !state_hessian(states_[k], path_.at(times_[k]), slope, block)) return false;
+    if (context.stop() || !state_hessian(states_[k], k, path_.at(times_[k]), slope, block)) return false;
     at_points(times_[k], [&](int j, double w) {
       gradient.segment(j * n, n) += share(k) * w * slope;
       at_points(times_[k], [&](int i, double v) { hessian.block(j * n, i * n, n, n) += share(k) * w * v * block; });

@@ -11,8 +11,10 @@
 #include <vector>
 
 #include "base/run_context.h"
+#include "method/dress_pack/clearance_rows.h"
 #include "method/dress_pack/pack_cost.h"
 #include "method/dress_pack/pack_follower.h"
+#include "method/dress_pack/trust_step.h"
 
 namespace tendril::dress_pack {
 
@@ -36,7 +38,33 @@ class ReducedProblem {
   Eigen::VectorXd values() const;  ///< of the free via points, one after the other
   JointPath path_with(const Eigen::VectorXd& u) const;
 
-  double objective() const { return objective_; }
+  double objective() const { return objective_; }        ///< with the penalty of clearances,
+  double plain_objective() const { return plain_; }      ///< and without
+
+  /// Clearances count as a penalty with this weight (clearance_rows.h), 0 to begin with; more is demanded by `reserve` (m).
+  void set_clearances(double weight, double reserve);
+  ClearanceRows& clearances() { return clearances_; }
+
+  /// What falls shortest of its clearance at the accepted states, at the trial's, or at one time step; nothing when no clearances
+  /// are demanded or all is far away.
+  struct Shortest {
+    ClearanceRow row;
+    double t = 0;
+    double missing() const { return row.wanted - row.gap; }  ///< m
+  };
+  std::optional<Shortest> shortest();
+  std::optional<Shortest> trial_shortest();
+  std::optional<Shortest> shortest_at(std::size_t k);
+  std::vector<double> trial_missing();  ///< m, at each of the trial's time steps; not positive where all is kept
+
+  /// Gaps at the accepted states smaller than wanted + `margin`, as inequalities of the free via points: the linearised gaps stay what
+  /// is wanted. `steps` and `rows`: the time step of each and what it is about. False: a state is not stable.
+  struct GapLimits {
+    LinearLimits limits;
+    std::vector<std::size_t> steps;
+    std::vector<ClearanceRow> rows;
+  };
+  bool gap_limits(double margin, GapLimits& out);
 
   /// Moves every time step's equilibrium to the path with these via points; a way that snaps through or finds no equilibrium is
   /// refused. The new states count once they are accepted.
@@ -55,10 +83,14 @@ class ReducedProblem {
 
  private:
   double share(std::size_t k) const;
-  double total(const std::vector<double>& costs, const JointPath& path) const;
-  double state_cost(const RodState& state);
-  bool state_gradient(const RodState& state, const JointVector& q, JointVector& out);
-  bool state_hessian(const RodState& state, const JointVector& q, JointVector& gradient, Eigen::MatrixXd& hessian);
+  struct Cost {
+    double plain = 0, penalty = 0;
+  };
+  double total(const std::vector<Cost>& costs, const JointPath& path, double* plain) const;
+  Cost state_cost(const RodState& state, std::size_t k, const JointVector& q);
+  bool state_gradient(const RodState& state, std::size_t k, const JointVector& q, JointVector& out);
+  bool state_hessian(const RodState& state, std::size_t k, const JointVector& q, JointVector& gradient, Eigen::MatrixXd& hessian);
+  std::optional<Shortest> shortest_of(const std::vector<RodState>& states, const JointPath& path);
   template <class Visit>
   void at_points(double t, Visit visit) const;
   void add_effort(Eigen::VectorXd& gradient, Eigen::MatrixXd* hessian) const;
@@ -70,8 +102,9 @@ class ReducedProblem {
   PackStatics statics_;
   PackCost cost_;
   std::vector<RodState> states_, trial_states_;
-  std::vector<double> costs_, trial_costs_;  ///< by time step
-  double objective_ = 0;
+  std::vector<Cost> costs_, trial_costs_;  ///< by time step
+  ClearanceRows clearances_;
+  double objective_ = 0, plain_ = 0;
   Eigen::MatrixXd jacobian_;
   Eigen::VectorXd by_load_;
   std::vector<Vec6> by_node_;

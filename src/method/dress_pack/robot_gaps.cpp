@@ -1,0 +1,268 @@
+#include "method/dress_pack/robot_gaps.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/units.h"
+#include "geometry/closest_point.h"
+#include "method/dress_pack/triangle_pair.h"
+
+namespace tendril::dress_pack {
+namespace {
+
+constexpr double look_ahead = 0.2;  // m, beyond what is asked: saves later looks
+constexpr double meeting = 1e-12;   // m
+constexpr int cylinder_sides = 64;
+
+Mesh box_mesh(const Vec3& size) {
+  Mesh mesh;
+  for (int k = 0; k < 8; ++k) mesh.vertices.push_back(0.5 * size.cwiseProduct(Vec3(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1)));
+  mesh.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4}, {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+  return mesh;
+}
+
+Mesh cylinder_mesh(const Cylinder& cylinder) {
+  Mesh mesh;
+  const double radius = cylinder.radius / std::cos(units::pi / cylinder_sides), half = 0.5 * cylinder.length;
+  mesh.vertices = {{0, 0, -half}, {0, 0, half}};
+  for (int k = 0; k < cylinder_sides; ++k) {
+    const double angle = 2 * units::pi * k / cylinder_sides, x = radius * std::cos(angle), y = radius * std::sin(angle);
+    mesh.vertices.push_back({x, y, -half});
+    mesh.vertices.push_back({x, y, half});
+  }
+  for (int k = 0; k < cylinder_sides; ++k) {
+    const int a = 2 + 2 * k, b = 2 + 2 * ((k + 1) % cylinder_sides);
+    mesh.triangles.insert(mesh.triangles.end(), {{0, b, a}, {1, a + 1, b + 1}, {a, b, b + 1}, {a, b + 1, a + 1}});
+  }
+  return mesh;
+}
+
+std::shared_ptr<const TriangleSurface> surface_of(const std::variant<std::shared_ptr<const TriangleSurface>, Solid>& shape) {
+  if (const auto* mesh = std::get_if<0>(&shape)) return *mesh;
+  const Solid& solid = std::get<1>(shape);
+  if (const auto* box = std::get_if<Box>(&solid)) return std::make_shared<const TriangleSurface>(box_mesh(box->size));
+  if (const auto* cylinder = std::get_if<Cylinder>(&solid)) return std::make_shared<const TriangleSurface>(cylinder_mesh(*cylinder));
+  return nullptr;
+}
+
+}  // namespace
+
+/// A body with balls about parts of its mesh, halved until one triangle is left.
+struct RobotGaps::Shape {
+  std::shared_ptr<const TriangleSurface> surface;  ///< null: a sphere or a half-space
+  double ball = -1;                                ///< m, radius of a sphere; negative: none
+  struct Node {
+    Vec3 middle;
+    double radius;
+    int first, count;                              ///< triangles of `order`
+    int child = -1;                                ///< and the next one; -1: a leaf
+  };
+  std::vector<Node> nodes;
+  std::vector<int> order;
+
+  explicit Shape(const std::variant<std::shared_ptr<const TriangleSurface>, Solid>& given) : surface(surface_of(given)) {
+    if (surface) return;
+    if (const auto* sphere = std::get_if<Sphere>(&std::get<1>(given))) ball = sphere->radius;
+  }
+
+  void build() {
+    const Mesh& mesh = surface->mesh();
+    order.resize(mesh.triangles.size());
+    for (std::size_t k = 0; k < order.size(); ++k) order[k] = static_cast<int>(k);
+    nodes.reserve(2 * order.size());
+    nodes.push_back(node_of(0, static_cast<int>(order.size())));
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      if (nodes[k].count <= 1) continue;
+      const int first = nodes[k].first, count = nodes[k].count, half = count / 2;
+      Eigen::AlignedBox3d box;
+      for (int i = first; i < first + count; ++i) box.extend(middle(order[i]));
+      int axis;
+      box.sizes().maxCoeff(&axis);
+      std::nth_element(order.begin() + first, order.begin() + first + half, order.begin() + first + count, [&](int a, int b) {
+        const double at_a = middle(a)[axis], at_b = middle(b)[axis];
+        return at_a < at_b || (at_a == at_b && a < b);
+      });
+      nodes[k].child = static_cast<int>(nodes.size());
+      nodes.push_back(node_of(first, half));
+      nodes.push_back(node_of(first + half, count - half));
+    }
+  }
+
+  Vec3 middle(int triangle) const {
+    const auto& t = surface->mesh().triangles[triangle];
+    const auto& v = surface->mesh().vertices;
+    return (v[t[0]] + v[t[1]] + v[t[2]]) / 3;
+  }
+  Node node_of(int first, int count) const {
+    Eigen::AlignedBox3d box;
+    for (int i = first; i < first + count; ++i)
+      for (const int v : surface->mesh().triangles[order[i]]) box.extend(surface->mesh().vertices[v]);
+    double square = 0;
+    for (int i = first; i < first + count; ++i)
+      for (const int v : surface->mesh().triangles[order[i]])
+        square = std::max(square, (surface->mesh().vertices[v] - box.center()).squaredNorm());
+    return {box.center(), std::sqrt(square), first, count};
+  }
+};
+
+RobotGaps::RobotGaps(const PackBodies& bodies) : bodies_(bodies) {
+  std::vector<std::shared_ptr<Shape>> shapes;
+  for (int b = 0; b < bodies.size(); ++b) shapes.push_back(std::make_shared<Shape>(bodies.pack().bodies[b].body.shape));
+  for (int a = 0; a < bodies.size(); ++a) {
+    if (!bodies.moves(a)) continue;
+    if (shapes[a]->surface) shapes[a]->build();
+    if (!shapes[a]->surface && shapes[a]->ball < 0) continue;  // a half-space on a link has no other side
+    for (int b = 0; b < bodies.size(); ++b)
+      if (bodies.fixed(b)) pairs_.push_back({a, b});
+  }
+  shapes_.assign(shapes.begin(), shapes.end());
+}
+
+namespace {
+
+/// Branch and bound: the surface of a link's body, seen from the other one's axes, against that one's tree.
+class MeshPairSearch {
+ public:
+  MeshPairSearch(const TriangleSurface& a, const TriangleSurface& b, const BodyPose& at_a, const BodyPose& at_b, double limit)
+      : a_(a.mesh()), b_(b.mesh()), tree_(b.tree()), turn_(at_b.axes.transpose() * at_a.axes), shift_(at_b.to_body(at_a.at)), best_{limit, {}, {}} {}
+
+  template <class Nodes>
+  void run(const Nodes& nodes, const std::vector<int>& order) {
+    std::vector<int> stack = {0};
+    while (!stack.empty() && best_.distance > 0) {
+      const auto& node = nodes[stack.back()];
+      stack.pop_back();
+      const Vec3 middle = turn_ * node.middle + shift_;
+      if (node.child < 0) {
+        measure(order[node.first], middle, node.radius);
+        continue;
+      }
+      const auto &left = nodes[node.child], &right = nodes[node.child + 1];
+      const double to_left = tree_.closest(turn_ * left.middle + shift_, best_.distance + left.radius).distance - left.radius;
+      const double to_right = tree_.closest(turn_ * right.middle + shift_, best_.distance + right.radius).distance - right.radius;
+      const bool left_first = to_left <= to_right;  // the last on the stack is the next one
+      const int near = left_first ? node.child : node.child + 1, far = left_first ? node.child + 1 : node.child;
+      if (std::max(to_left, to_right) < best_.distance) stack.push_back(far);
+      if (std::min(to_left, to_right) < best_.distance) stack.push_back(near);
+    }
+  }
+
+  const TrianglePair& best() const { return best_; }  ///< in b's axes
+  bool found() const { return found_; }
+
+ private:
+  void measure(int triangle, const Vec3& middle, double radius) {
+    Vec3 a[3];
+    for (int k = 0; k < 3; ++k) a[k] = turn_ * a_.vertices[a_.triangles[triangle][k]] + shift_;
+    tree_.visit_near(middle, best_.distance + radius, [&](int other) {
+      const Vec3 b[3] = {b_.vertices[b_.triangles[other][0]], b_.vertices[b_.triangles[other][1]], b_.vertices[b_.triangles[other][2]]};
+      const TrianglePair pair = closest_of_triangles(a, b);
+      if (pair.distance < best_.distance) best_ = pair, found_ = true;
+    });
+  }
+
+  const Mesh &a_, &b_;
+  const DistanceTree& tree_;
+  Mat3 turn_;
+  Vec3 shift_;
+  TrianglePair best_;
+  bool found_ = false;
+};
+
+/// The corner of one mesh that lies deepest inside the body `other`.
+bool deepest_corner(const PackBodies& bodies, const Mesh& mesh, const BodyPose& at, int other, const BodyPose& at_other, Vec3& corner,
+                    BodyDistance& deepest) {
+  deepest = {0, {}, false};
+  for (const Vec3& v : mesh.vertices) {
+    const BodyDistance found = bodies.distance(other, at_other.to_body(at.to_world(v)), 0);
+    if (!(found.distance < deepest.distance)) continue;
+    deepest = found;
+    corner = at.to_world(v);
+  }
+  return deepest.found;
+}
+
+}  // namespace
+
+LinkGap RobotGaps::measure(const Pair& pair, const std::vector<BodyPose>& poses, double limit) const {
+  const Shape &a = *shapes_[pair.body], &b = *shapes_[pair.other];
+  const BodyPose &at_a = poses[pair.body], &at_b = poses[pair.other];
+  const LinkGap nothing{limit, -1, -1};
+  if (!a.surface || !b.surface) {
+    // A ball is measured from its middle; a half-space from all corners.
+    if (!a.surface || b.ball >= 0) {
+      const bool link_is_ball = !a.surface;
+      const double radius = link_is_ball ? a.ball : b.ball;
+      const BodyPose &at_ball = link_is_ball ? at_a : at_b, &at_other = link_is_ball ? at_b : at_a;
+      const BodyDistance found = bodies_.distance(link_is_ball ? pair.other : pair.body, at_other.to_body(at_ball.at), limit + radius);
+      if (!found.found) return nothing;
+      const Vec3 foot = at_other.to_world(found.point);
+      const Vec3 way = found.distance != 0 ? Vec3((foot - at_ball.at) / found.distance) : Vec3::Zero();
+      const Vec3 on_ball = at_ball.at + radius * way;
+      return {found.distance - radius, pair.body, pair.other, link_is_ball ? on_ball : foot, link_is_ball ? foot : on_ball};
+    }
+    LinkGap best = nothing;
+    for (const Vec3& v : a.surface->mesh().vertices) {
+      const Vec3 world = at_a.to_world(v), p = at_b.to_body(world);
+      if (p.z() < best.gap) best = {p.z(), pair.body, pair.other, world, at_b.to_world({p.x(), p.y(), 0})};
+    }
+    return best;
+  }
+  MeshPairSearch search(*a.surface, *b.surface, at_a, at_b, limit);
+  search.run(a.nodes, a.order);
+  const Vec3 some = at_b.to_body(at_a.to_world(a.surface->mesh().vertices.front()));
+  const bool within = bodies_.distance(pair.other, some, 0).distance < 0;
+  if (within || (search.found() && search.best().distance <= meeting)) {
+    Vec3 corner;
+    BodyDistance deepest;
+    LinkGap best{0, pair.body, pair.other, at_b.to_world(search.best().on_a), at_b.to_world(search.best().on_b)};
+    if (deepest_corner(bodies_, a.surface->mesh(), at_a, pair.other, at_b, corner, deepest))
+      best = {deepest.distance, pair.body, pair.other, corner, at_b.to_world(deepest.point)};
+    if (deepest_corner(bodies_, b.surface->mesh(), at_b, pair.body, at_a, corner, deepest) && deepest.distance < best.gap)
+      best = {deepest.distance, pair.body, pair.other, at_a.to_world(deepest.point), corner};
+    return best;
+  }
+  if (!search.found()) return nothing;
+  return {search.best().distance, pair.body, pair.other, at_b.to_world(search.best().on_a), at_b.to_world(search.best().on_b)};
+}
+
+/// No point of the link's body has moved farther in the other one's axes than the farthest corner of its box.
+double RobotGaps::bound(std::size_t k, const std::vector<BodyPose>& poses, const Memory& memory, Eigen::Matrix<double, 3, 8>& corners) const {
+  const BodyPose &at_a = poses[pairs_[k].body], &at_b = poses[pairs_[k].other];
+  const Eigen::AlignedBox3d& box = bodies_.own_box(pairs_[k].body);
+  for (int c = 0; c < 8; ++c)
+    corners.col(c) = at_b.to_body(at_a.to_world(box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(c))));
+  if (!(memory[k].distance > -std::numeric_limits<double>::infinity())) return memory[k].distance;
+  return memory[k].distance - std::sqrt((corners - memory[k].corners).colwise().squaredNorm().maxCoeff());
+}
+
+void RobotGaps::near(const JointVector& q, double limit, Memory& memory, std::vector<LinkGap>& out) const {
+  out.clear();
+  memory.resize(pairs_.size());
+  std::vector<BodyPose> poses;
+  bodies_.poses(q, poses);
+  Eigen::Matrix<double, 3, 8> corners;
+  for (std::size_t k = 0; k < pairs_.size(); ++k) {
+    if (bound(k, poses, memory, corners) >= limit) continue;
+    const LinkGap found = measure(pairs_[k], poses, limit + look_ahead);
+    memory[k] = {corners, found.gap};
+    if (found.gap < limit && found.body >= 0) out.push_back(found);
+  }
+}
+
+LinkGap RobotGaps::smallest(const JointVector& q, double limit, Memory& memory) const {
+  memory.resize(pairs_.size());
+  std::vector<BodyPose> poses;
+  bodies_.poses(q, poses);
+  LinkGap best{limit, -1, -1};
+  Eigen::Matrix<double, 3, 8> corners;
+  for (std::size_t k = 0; k < pairs_.size(); ++k) {
+    if (bound(k, poses, memory, corners) >= best.gap) continue;
+    const LinkGap found = measure(pairs_[k], poses, best.gap + look_ahead);
+    memory[k] = {corners, found.gap};
+    if (found.gap < best.gap && found.body >= 0) best = found;
+  }
+  return best;
+}
+
+}  // namespace tendril::dress_pack
