@@ -902,7 +902,7 @@ function motion_methods:clearance(options) end
 ---@field threads? integer At most; default: all that the machine has (1 ... 4096)
 ---@field timeout? number Give up after this time, with the best state so far; default: never (s; > 0 and <= 1000000000)
 
----A watertight mesh that contains the rods at all times of the motion, and how it was made.
+---A watertight mesh that contains the rods at the times that the motion kept and on straight ways between them, and how it was made.
 ---@param options? tendril.motion.envelope.options
 ---@return mesh, envelope_report
 function motion_methods:envelope(options) end

@@ -111,7 +111,7 @@ void add_envelope_to(Class<VariationHandle>& variation, const std::shared_ptr<En
 void add_envelope_to(Class<SceneMotion>& motion, const std::shared_ptr<EnvelopeBuilder>& builder) {
   motion.method("envelope",
                 {.options = envelope_schema(false), .returns = "mesh, envelope_report",
-                 .does = "A watertight mesh that contains the rods at all times of the motion, and how it was made.",
+                 .does = "A watertight mesh that contains the rods at the times that the motion kept and on straight ways between them, and how it was made.",
                  .example = with_hose("local m = s:motion{steps = 4, holds = {[\"hose.finish\"] = function(t)\n"
                                       "  return frame{at = {0.9, 0.1 * t, 0}, along = {1, 0, 0}} end}}\n"
                                       "print(m:envelope{resolution = 5e-3}.watertight)  --> true")},
