@@ -126,7 +126,7 @@ DirectResult optimise_direct(const PackProblem& given, const JointPath& given_pa
   refuse(options.demands);
   const Clock::time_point begin = Clock::now();
   PackProblem pack = given;
-  for (RodProblem& rod : pack.rods) rod.surroundings = nullptr;
+  pack.bodies.clear();
   DirectResult out;
   out.path = options.via > 0 ? given_path.resampled(options.via) : given_path;
   const std::string beyond = beyond_robot(out.path, *pack.robot, options.seconds);
