@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "method/dress_pack/direct.h"
+#include "method/dress_pack/multi_start.h"
 
 namespace tendril::dress_pack {
 namespace {
@@ -88,6 +89,13 @@ class Method {
     search.weights = options_.weights;
     search.tolerance = options_.tolerance;
     search.most_iterations = options_.most_iterations;
+    // Later rounds go on from the best of the starts.
+    if (options_.starts > 1 && round == 0) {
+      MultiStartOptions several;
+      several.search = search;
+      several.starts = options_.starts;
+      return optimise_from_starts(pack_, out_.path, several, context_);
+    }
     if (options_.formulation == Formulation::reduced) return dress_pack::optimise(pack_, out_.path, search, context_);
     DirectResult found = optimise_direct(pack_, out_.path, search, context_);
     out_.violation = found.violation;
@@ -160,6 +168,8 @@ Result run(const PackProblem& pack, const JointPath& path, const Options& option
   options.limits.check();
   if (options.checked_steps < 1) throw UsageError("dress pack: " + std::to_string(options.checked_steps) + " checked steps, expected at least 1");
   if (options.starts < 1) throw UsageError("dress pack: " + std::to_string(options.starts) + " starts, expected at least 1");
+  if (options.starts > 1 && options.formulation == Formulation::direct)
+    throw UsageError("dress pack: " + std::to_string(options.starts) + " starts by the direct formulation, expected 1; the reduced one takes several");
   Result out;
   out.limits = options.limits;
   out.duration = options.seconds;

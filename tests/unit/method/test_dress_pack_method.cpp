@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "base/units.h"
 #include "method/dress_pack/dress_pack.h"
+#include "method/dress_pack/multi_start.h"
 #include "robot/load_robot.h"
 #include "unit/method/dress_pack_cases.h"
 
@@ -180,6 +181,7 @@ TEST_CASE("dress pack: what cannot be is refused, with the reason", "[dress_pack
   refuses([](Options& o) { o.limits.clearance = INFINITY; }, "a clearance of inf");
   refuses([](Options& o) { o.checked_steps = 0; }, "0 checked steps");
   refuses([](Options& o) { o.starts = 0; }, "0 starts");
+  refuses([](Options& o) { o.starts = 3; o.formulation = Formulation::direct; }, "3 starts by the direct formulation");
   refuses([](Options& o) { o.steps = 0; }, "0 time steps");
 }
 
@@ -200,4 +202,28 @@ TEST_CASE("dress pack: interrupted, what was found stands", "[dress_pack]") {
   CHECK(found.objective < found.objective_before);
   CHECK(found.path.via() != found.given.via());
   CHECK(beyond_robot(found.path, *pack.robot) == "");
+}
+
+TEST_CASE("dress pack: of several starts the best", "[dress_pack]") {
+  const PackProblem pack = six_axis_pack(8);
+  Options options;
+  options.steps = 10;
+  options.checked_steps = 20;
+  options.starts = 6;
+  RunContext context;
+  context.seed = 5;
+  const JointPath path = problematic_path(4);
+  const Result found = run(pack, path, options, context);
+  INFO(found.message);
+  MultiStartOptions several;
+  several.starts = 6;
+  several.search.steps = 10;
+  several.search.demands = demands_of({}, found.before, 0);
+  const MultiStartResult alone = optimise_from_starts(pack, path, several, context);
+  REQUIRE(alone.best > 0);  // else this would say nothing
+  CHECK(found.objective == alone.objective);
+  CHECK(found.objective_before == alone.objective_before);
+  CHECK(found.path.via()[1] == alone.path.via()[1]);
+  options.starts = 1;
+  CHECK(found.objective < run(pack, path, options, context).objective);
 }
