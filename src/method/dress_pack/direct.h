@@ -6,7 +6,7 @@
 // turn the rods by more than a linear model bears, and its equations hold for unstable equilibria too.
 //
 // The objective is that of reduced.h, and on the cases of tests/bench/bench_pack_formulations.cpp both find the same minimum to nine digits;
-// this one takes some hundred times as long and is there to compare with.
+// this one takes hundreds of times as long and is there to compare with.
 // Not done: contact and clearance.
 #pragma once
 
