@@ -10,7 +10,7 @@
 namespace tendril::dress_pack {
 namespace {
 
-constexpr double look_ahead = 0.2;  // m, beyond what is asked: saves later looks
+constexpr double look_ahead = 0.05;  // m, beyond what is asked: saves later looks
 constexpr double meeting = 1e-12;   // m
 constexpr int cylinder_sides = 64;
 
@@ -147,18 +147,38 @@ class MeshPairSearch {
     }
   }
 
+  /// Two triangles that are likely to be near: the rest is judged by them.
+  void begin(int triangle, int other) {
+    if (triangle < 0) return;
+    Vec3 a[3];
+    corners(triangle, a);
+    compare(a, triangle, other);
+  }
+  int triangle() const { return triangle_; }
+  int other_triangle() const { return other_; }
+
   const TrianglePair& best() const { return best_; }  ///< in b's axes
   bool found() const { return found_; }
 
  private:
+  void corners(int triangle, Vec3 (&a)[3]) const {
+    for (int k = 0; k < 3; ++k) a[k] = turn_ * a_.vertices[a_.triangles[triangle][k]] + shift_;
+  }
+
+  void compare(const Vec3 (&a)[3], int triangle, int other) {
+    const Vec3 b[3] = {b_.vertices[b_.triangles[other][0]], b_.vertices[b_.triangles[other][1]], b_.vertices[b_.triangles[other][2]]};
+    const TrianglePair pair = closest_of_triangles(a, b);
+    if (!(pair.distance < best_.distance)) return;
+    best_ = pair;
+    triangle_ = triangle;
+    other_ = other;
+    found_ = true;
+  }
+
   void measure(int triangle, const Vec3& middle, double radius) {
     Vec3 a[3];
-    for (int k = 0; k < 3; ++k) a[k] = turn_ * a_.vertices[a_.triangles[triangle][k]] + shift_;
-    tree_.visit_near(middle, best_.distance + radius, [&](int other) {
-      const Vec3 b[3] = {b_.vertices[b_.triangles[other][0]], b_.vertices[b_.triangles[other][1]], b_.vertices[b_.triangles[other][2]]};
-      const TrianglePair pair = closest_of_triangles(a, b);
-      if (pair.distance < best_.distance) best_ = pair, found_ = true;
-    });
+    corners(triangle, a);
+    tree_.visit_near(middle, best_.distance + radius, [&](int other) { compare(a, triangle, other); });
   }
 
   const Mesh &a_, &b_;
@@ -166,6 +186,7 @@ class MeshPairSearch {
   Mat3 turn_;
   Vec3 shift_;
   TrianglePair best_;
+  int triangle_ = -1, other_ = -1;
   bool found_ = false;
 };
 
@@ -184,7 +205,7 @@ bool deepest_corner(const PackBodies& bodies, const Mesh& mesh, const BodyPose& 
 
 }  // namespace
 
-LinkGap RobotGaps::measure(const Pair& pair, const std::vector<BodyPose>& poses, double limit) const {
+LinkGap RobotGaps::measure(const Pair& pair, const std::vector<BodyPose>& poses, double limit, Known& known) const {
   const Shape &a = *shapes_[pair.body], &b = *shapes_[pair.other];
   const BodyPose &at_a = poses[pair.body], &at_b = poses[pair.other];
   const LinkGap nothing{limit, -1, -1};
@@ -209,7 +230,10 @@ LinkGap RobotGaps::measure(const Pair& pair, const std::vector<BodyPose>& poses,
     return best;
   }
   MeshPairSearch search(*a.surface, *b.surface, at_a, at_b, limit);
+  search.begin(known.triangle, known.other_triangle);
   search.run(a.nodes, a.order);
+  known.triangle = search.triangle();
+  known.other_triangle = search.other_triangle();
   const Vec3 some = at_b.to_body(at_a.to_world(a.surface->mesh().vertices.front()));
   const bool within = bodies_.distance(pair.other, some, 0).distance < 0;
   if (within || (search.found() && search.best().distance <= meeting)) {
@@ -244,8 +268,9 @@ void RobotGaps::near(const JointVector& q, double limit, Memory& memory, std::ve
   Eigen::Matrix<double, 3, 8> corners;
   for (std::size_t k = 0; k < pairs_.size(); ++k) {
     if (bound(k, poses, memory, corners) >= limit) continue;
-    const LinkGap found = measure(pairs_[k], poses, limit + look_ahead);
-    memory[k] = {corners, found.gap};
+    const LinkGap found = measure(pairs_[k], poses, limit + look_ahead, memory[k]);
+    memory[k].corners = corners;
+    memory[k].distance = found.gap;
     if (found.gap < limit && found.body >= 0) out.push_back(found);
   }
 }
@@ -258,8 +283,9 @@ LinkGap RobotGaps::smallest(const JointVector& q, double limit, Memory& memory) 
   Eigen::Matrix<double, 3, 8> corners;
   for (std::size_t k = 0; k < pairs_.size(); ++k) {
     if (bound(k, poses, memory, corners) >= best.gap) continue;
-    const LinkGap found = measure(pairs_[k], poses, best.gap + look_ahead);
-    memory[k] = {corners, found.gap};
+    const LinkGap found = measure(pairs_[k], poses, best.gap + look_ahead, memory[k]);
+    memory[k].corners = corners;
+    memory[k].distance = found.gap;
     if (found.gap < best.gap && found.body >= 0) best = found;
   }
   return best;

@@ -28,6 +28,7 @@ class RobotGaps {
   struct Known {
     Eigen::Matrix<double, 3, 8> corners;   ///< of the link body's box, in the fixed body's axes, where
     double distance = -std::numeric_limits<double>::infinity();  ///< the gap was no smaller, m
+    int triangle = -1, other_triangle = -1;                      ///< that were nearest: where the next search begins
   };
   using Memory = std::vector<Known>;
 
@@ -41,7 +42,7 @@ class RobotGaps {
   struct Pair {
     int body, other;
   };
-  LinkGap measure(const Pair& pair, const std::vector<BodyPose>& poses, double limit) const;
+  LinkGap measure(const Pair& pair, const std::vector<BodyPose>& poses, double limit, Known& known) const;
   double bound(std::size_t k, const std::vector<BodyPose>& poses, const Memory& memory, Eigen::Matrix<double, 3, 8>& corners) const;
 
   const PackBodies& bodies_;
