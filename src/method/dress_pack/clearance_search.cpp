@@ -113,11 +113,15 @@ void ClearanceSearch::improve(const RunContext& context, ReducedResult& out) {
 ClearanceSearch::Step ClearanceSearch::step(const RunContext& context, ReducedResult& out) {
   const Eigen::VectorXd u = problem_.values();
   Eigen::VectorXd shift = Eigen::VectorXd::Zero(gaps_.limits.most.size());
+  double tried = radius_;
   for (int correction = 0; correction <= most_corrections; ++correction) {
     const TrustStep trust = trust_step(gradient_, hessian_, joined(limits_, gaps_.limits, shift), u, radius_);
     const double size = trust.step.norm();
-    if (trust.reduction <= options_.tolerance * std::abs(problem_.objective()) || size < smallest_radius)
-      return correction == 0 ? Step::none : Step::refused;
+    if (trust.reduction <= options_.tolerance * std::abs(problem_.objective()) || size < smallest_radius) {
+      if (correction == 0) return Step::none;
+      break;  // with the corrections there is nothing to gain: only a shorter step may do
+    }
+    tried = std::min(tried, size);
     ++out.iterations;
     const ReducedProblem::Trial trial = problem_.try_values(u + trust.step, context);
     if (stopped(context, out)) return Step::none;
@@ -131,16 +135,14 @@ ClearanceSearch::Step ClearanceSearch::step(const RunContext& context, ReducedRe
       if (gain > 0.5 * trust.reduction && trust.at_edge) radius_ = std::min(largest_radius, 2 * radius_);
       return Step::taken;
     }
-    if (!trial.ok() || missing <= clearance_tolerance || correction == most_corrections) {
-      radius_ = 0.4 * std::min(radius_, size);
-      return Step::refused;
-    }
+    if (!trial.ok() || missing <= clearance_tolerance) break;
     const std::vector<double> lacking = problem_.trial_missing();
     for (int i = 0; i < shift.size(); ++i) {
       const double lack = lacking[gaps_.steps[i]];
       if (lack > 0) shift[i] += std::min(1.05 * lack + clearance_tolerance, std::max(0.0, gaps_.limits.most[i] - shift[i] - gaps_.limits.rows.row(i).dot(u)));
     }
   }
+  radius_ = 0.4 * tried;
   return Step::refused;
 }
 
