@@ -725,47 +725,6 @@ function assembly_methods:hands_at(t) end
 ---@return saved_file
 function assembly_methods:save(path) end
 
----A rod of a dress pack that left its equilibrium and came to rest in another one
----@class pack_snap
----@field energy_drop number Energy set free (J)
----@field move number The farthest that a place on it moved (m)
----@field t number Just after this share of the path
-local pack_snap_methods = {}
-
----A dress pack that follows its robot along a path, from equilibrium to equilibrium
----@class pack_motion
----@field clearance number The smallest of the rods from obstacles and links; infinite: nothing is near (m)
----@field length number Of the path, the joints together (rad or m)
----@field max_tension number The largest force between a hold and its rod (N)
----@field max_twist number The largest change against the unstressed rods (rad/m)
----@field message string What there is to say about it
----@field min_bend_radius number The smallest (m)
----@field ok boolean It came to the end of the path
----@field residual number The largest that was left unbalanced (N)
----@field seconds number Run time (s)
----@field snaps (pack_snap)[] Snap-throughs, in time order
----@field tensions (number)[] The largest force of a hold at those times (N)
----@field times (number)[] Shares of the path
-local pack_motion_methods = {}
-
----The equilibrium, with the robot where it is, at the time step nearest to t = 0 ... 1.
----@param t number
----@return equilibrium
-function pack_motion_methods:frame(t) end
-
----The robot's joint values at t = 0 ... 1.
----@param t number
----@return (number)[]
-function pack_motion_methods:joints(t) end
-
----@class (exact) tendril.pack_motion.motion.options
----@field states? integer Evenly spaced, first and last among them (1 ... 100000; default 40)
-
----Its states as a motion: for envelopes, gaps and pictures.
----@param options? tendril.pack_motion.motion.options
----@return motion
-function pack_motion_methods:motion(options) end
-
 ---One step of the search for a better path
 ---@class search_step
 ---@field accepted boolean The path was changed
@@ -831,6 +790,61 @@ function dress_pack_methods:frame(t) end
 ---@param options? tendril.dress_pack.program.options
 ---@return string
 function dress_pack_methods:program(dialect, options) end
+
+---Numbers of a dress pack, adjusted for motions that stay as they are
+---@class pack_design
+---@field after (pack_motion)[] The motions of the adjusted one
+---@field before (pack_motion)[] The motions of the given pack, without contact
+---@field history (number)[] The objective, step by step
+---@field message string What there is to say about it
+---@field objective number What the search made least
+---@field objective_before number The same of the given pack
+---@field ok boolean The search came to its end
+---@field seconds number Run time (s)
+---@field status string "solved", "infeasible", "stalled", "cancelled", "timeout"
+---@field values table<string, number> By name, the best that were found (m or rad)
+local pack_design_methods = {}
+
+---A rod of a dress pack that left its equilibrium and came to rest in another one
+---@class pack_snap
+---@field energy_drop number Energy set free (J)
+---@field move number The farthest that a place on it moved (m)
+---@field t number Just after this share of the path
+local pack_snap_methods = {}
+
+---A dress pack that follows its robot along a path, from equilibrium to equilibrium
+---@class pack_motion
+---@field clearance number The smallest of the rods from obstacles and links; infinite: nothing is near (m)
+---@field length number Of the path, the joints together (rad or m)
+---@field max_tension number The largest force between a hold and its rod (N)
+---@field max_twist number The largest change against the unstressed rods (rad/m)
+---@field message string What there is to say about it
+---@field min_bend_radius number The smallest (m)
+---@field ok boolean It came to the end of the path
+---@field residual number The largest that was left unbalanced (N)
+---@field seconds number Run time (s)
+---@field snaps (pack_snap)[] Snap-throughs, in time order
+---@field tensions (number)[] The largest force of a hold at those times (N)
+---@field times (number)[] Shares of the path
+local pack_motion_methods = {}
+
+---The equilibrium, with the robot where it is, at the time step nearest to t = 0 ... 1.
+---@param t number
+---@return equilibrium
+function pack_motion_methods:frame(t) end
+
+---The robot's joint values at t = 0 ... 1.
+---@param t number
+---@return (number)[]
+function pack_motion_methods:joints(t) end
+
+---@class (exact) tendril.pack_motion.motion.options
+---@field states? integer Evenly spaced, first and last among them (1 ... 100000; default 40)
+
+---Its states as a motion: for envelopes, gaps and pictures.
+---@param options? tendril.pack_motion.motion.options
+---@return motion
+function pack_motion_methods:motion(options) end
 
 ---How an envelope was made
 ---@class envelope_report
@@ -1713,9 +1727,6 @@ function method.assembly(scene, options) end
 ---@field robot? string Its name in the scene; default: the only one
 ---@field seconds? number That the path takes: the joints' speeds are kept; default: they are not looked at (s; > 0)
 ---@field via? integer Via points of the optimised path, first and last among them; default: as many as given (2 ... 200)
----@field max_tension? number Of the force between a hold and its rod; default: as little as can be (N; > 0)
----@field max_twist? number Against the unstressed rod (rad/m; > 0)
----@field min_bend_radius? number Of the rods (m; > 0)
 ---@field clearance? number Of the rods from obstacles and links; default: they may touch (m; >= 0)
 ---@field robot_clearance? number Of the links from obstacles; default: not looked at (m; >= 0)
 ---@field steps? integer Time steps of the search (1 ... 100000; default 40)
@@ -1725,6 +1736,9 @@ function method.assembly(scene, options) end
 ---@field starts? integer Of the search: the given path and others that stray from it (1 ... 10000; default 1)
 ---@field effort? number Weight of the path's length and unevenness against what the rods bear (>= 0; default 0.02)
 ---@field weights? (number)[] Of the joints in the path's length; default: all 1
+---@field max_tension? number Of the force between a hold and its rod; default: as little as can be (N; > 0)
+---@field max_twist? number Against the unstressed rod (rad/m; > 0)
+---@field min_bend_radius? number Of the rods (m; > 0)
 ---@field seed? integer Of all random numbers: the same seed gives the same bits (>= 0; default 1)
 ---@field threads? integer At most; default: all that the machine has (1 ... 4096)
 ---@field progress? function function(share, what), called now and then
@@ -1735,6 +1749,27 @@ function method.assembly(scene, options) end
 ---@param options tendril.method.dress_pack.options
 ---@return dress_pack
 function method.dress_pack(scene, options) end
+
+---@class (exact) tendril.method.dress_pack_design.options
+---@field adjust table<string, (number)[]> By name {lowest, highest}: "hose.length", "hose.start.x" .y .z (in the link's axes), "hose.start.rx" .ry .rz (turned about the section's own axes), "hose.0.4.at" (a clip's arc length) (m or rad)
+---@field motions (((number)[])[])[] The paths that it is adjusted for, each a list of joint values (rad or m)
+---@field weights? (number)[] Of the motions; default: all 1
+---@field robot? string Its name in the scene; default: the only one
+---@field steps? integer Time steps of each motion (1 ... 100000; default 40)
+---@field length_weight? number Of the rods' length against what they bear (1/m; >= 0; default 0)
+---@field max_tension? number Of the force between a hold and its rod; default: as little as can be (N; > 0)
+---@field max_twist? number Against the unstressed rod (rad/m; > 0)
+---@field min_bend_radius? number Of the rods (m; > 0)
+---@field seed? integer Of all random numbers: the same seed gives the same bits (>= 0; default 1)
+---@field threads? integer At most; default: all that the machine has (1 ... 4096)
+---@field progress? function function(share, what), called now and then
+---@field timeout? number Give up after this time, with the best state so far; default: never (s; > 0 and <= 1000000000)
+
+---Adjusts numbers of a dress pack (a hose's length, places and angles of its attachments, a clip's place along it) so that it bears as little as demanded in the motions given. Contact and clearance are not looked at.
+---@param scene scene
+---@param options tendril.method.dress_pack_design.options
+---@return pack_design
+function method.dress_pack_design(scene, options) end
 
 ---@class (exact) tendril.method.flatten.options
 ---@field rods? (string)[] Names; default: all of the scene, which must hang together

@@ -1,9 +1,5 @@
 // method.dress_pack: a robot's path that spares its hoses.
-#include <algorithm>
-#include <cmath>
-
 #include "base/error.h"
-#include "base/number_text.h"
 #include "base/units.h"
 #include "binding/bind_method.h"
 #include "binding/bind_program.h"
@@ -12,6 +8,7 @@
 #include "binding/dress_pack_classes.h"
 #include "binding/method_options.h"
 #include "binding/method_steps.h"
+#include "binding/pack_motion.h"
 #include "binding/scene_classes.h"
 
 namespace tendril::lua {
@@ -19,7 +16,6 @@ namespace {
 
 using dress_pack::JointVector;
 using dress_pack::PackMotion;
-using dress_pack::PackStep;
 using Numbers = std::vector<double>;
 
 Schema dress_pack_schema() {
@@ -29,9 +25,6 @@ Schema dress_pack_schema() {
              option<std::string>("robot", "", "Its name in the scene; default: the only one"),
              option<double>("seconds", "s", "That the path takes: the joints' speeds are kept; default: they are not looked at").above(0),
              option<int>("via", "", "Via points of the optimised path, first and last among them; default: as many as given").at_least(2).at_most(200),
-             option<double>("max_tension", "N", "Of the force between a hold and its rod; default: as little as can be").above(0),
-             option<double>("max_twist", "rad/m", "Against the unstressed rod").above(0),
-             option<double>("min_bend_radius", "m", "Of the rods").above(0),
              option<double>("clearance", "m", "Of the rods from obstacles and links; default: they may touch").at_least(0),
              option<double>("robot_clearance", "m", "Of the links from obstacles; default: not looked at").at_least(0),
              option<int>("steps", "", "Time steps of the search").at_least(1).at_most(1e5).preset(standard.steps),
@@ -42,16 +35,14 @@ Schema dress_pack_schema() {
              option<double>("effort", "", "Weight of the path's length and unevenness against what the rods bear").at_least(0).preset(standard.weights.effort),
              option<Numbers>("weights", "", "Of the joints in the path's length; default: all 1"),
          } +
-         method_schema();
+         pack_limit_options() + method_schema();
 }
 
 dress_pack::Options dress_pack_options(const Options& o) {
   dress_pack::Options options;
   options.seconds = o.maybe<double>("seconds").value_or(0);
   options.via = o.maybe<int>("via").value_or(0);
-  if (o.has("max_tension")) options.limits.max_tension = o.get<double>("max_tension");
-  if (o.has("max_twist")) options.limits.max_twist = o.get<double>("max_twist");
-  options.limits.min_bend_radius = o.maybe<double>("min_bend_radius").value_or(0);
+  options.limits = pack_limits(o);
   options.limits.clearance = o.maybe<double>("clearance").value_or(-1);
   options.limits.robot_clearance = o.maybe<double>("robot_clearance").value_or(-1);
   options.steps = o.get<int>("steps");
@@ -64,24 +55,6 @@ dress_pack::Options dress_pack_options(const Options& o) {
   return options;
 }
 
-std::string robot_of(const Scene& scene, const Options& o) {
-  if (o.has("robot")) return o.get<std::string>("robot");
-  if (scene.robots().size() == 1) return scene.robots().front().name;
-  throw UsageError(scene.robots().empty() ? "method.dress_pack: the scene has no robot; add one with scene:robot(name, robot, {...})"
-                                          : "method.dress_pack: the scene has several robots; name one in 'robot'");
-}
-
-dress_pack::JointPath path_of(const std::vector<Numbers>& rows, const Robot& robot) {
-  std::vector<JointVector> via;
-  for (std::size_t k = 0; k < rows.size(); ++k) {
-    if (static_cast<int>(rows[k].size()) != robot.size())
-      throw UsageError("method.dress_pack: 'path': point " + std::to_string(k + 1) + " has " + std::to_string(rows[k].size()) + " joint values, expected " +
-                       std::to_string(robot.size()) + " for " + robot.name());
-    via.push_back(Eigen::Map<const JointVector>(rows[k].data(), static_cast<int>(rows[k].size())));
-  }
-  return dress_pack::JointPath(std::move(via));
-}
-
 std::vector<Numbers> rows_of(const dress_pack::JointPath& path) {
   std::vector<Numbers> rows;
   for (const JointVector& q : path.via()) rows.emplace_back(q.data(), q.data() + q.size());
@@ -89,107 +62,15 @@ std::vector<Numbers> rows_of(const dress_pack::JointPath& path) {
 }
 
 DressPackHandle dress_pack_of(lua_State* L, const std::shared_ptr<Scene>& scene, const Options& o) {
-  auto pack = std::make_shared<const dress_pack::ScenePack>(dress_pack::pack_of(*scene, robot_of(*scene, o)));
-  const dress_pack::JointPath path = path_of(o.get<std::vector<Numbers>>("path"), *pack->problem.robot);
+  auto pack = std::make_shared<const dress_pack::ScenePack>(dress_pack::pack_of(*scene, robot_of(*scene, o, "method.dress_pack")));
+  const dress_pack::JointPath path = path_of(o.get<std::vector<Numbers>>("path"), *pack->problem.robot, "method.dress_pack: 'path'");
   auto result = std::make_shared<const dress_pack::Result>(dress_pack::run(pack->problem, path, dress_pack_options(o), method_context(L, o)));
   return {std::move(result), std::move(pack), scene};
 }
 
-/// The state of the rods at the time step nearest to t.
-std::shared_ptr<SceneEquilibrium> frame_at(const PackMotionHandle& h, double t) {
-  const std::vector<PackStep>& steps = h.motion().steps;
-  if (steps.empty()) throw UsageError("pack_motion:frame: there is no state: " + h.motion().message);
-  if (!(t >= 0 && t <= 1)) throw UsageError("pack_motion:frame: got t = " + number_text(t) + ", expected 0 to 1");
-  const auto near = std::min_element(steps.begin(), steps.end(), [t](const PackStep& a, const PackStep& b) { return std::abs(a.t - t) < std::abs(b.t - t); });
-  return dress_pack::scene_states(*h.of.scene, *h.of.pack, {*near}).front();
-}
-
-Numbers joints_at(const PackMotionHandle& h, double t) {
-  if (!(t >= 0 && t <= 1)) throw UsageError("pack_motion:joints: got t = " + number_text(t) + ", expected 0 to 1");
-  const JointVector q = h.path().at(t);
-  return {q.data(), q.data() + q.size()};
-}
-
-std::shared_ptr<SceneMotion> motion_of(const PackMotionHandle& h, const Options& o) {
-  const PackMotion& motion = h.motion();
-  auto out = std::make_shared<SceneMotion>();
-  out->status = motion.status;
-  out->message = motion.message;
-  out->seconds = motion.seconds;
-  out->solves = motion.iterations;
-  const int wanted = std::min<int>(o.get<int>("states"), static_cast<int>(motion.steps.size()));
-  std::vector<PackStep> shown;
-  for (int k = 0; k < wanted; ++k) shown.push_back(motion.steps[wanted == 1 ? 0 : k * (motion.steps.size() - 1) / (wanted - 1)]);
-  for (const PackStep& step : shown) out->times.push_back(step.t);
-  out->equilibria = dress_pack::scene_states(*h.of.scene, *h.of.pack, shown);
-  for (const dress_pack::PackSnap& snap : motion.snaps)
-    out->snaps.push_back({h.of.pack->problem.rod_name(snap.rod), {snap.t, snap.rod, 0, snap.move, snap.energy_drop}});
-  return out;
-}
-
-template <class Read>
-Numbers over_time(const PackMotionHandle& h, Read read) {
-  Numbers out;
-  for (const PackStep& step : h.motion().steps) out.push_back(read(step));
-  return out;
-}
-
-double force_of(const PackStep& step) {
-  double most = 0;
-  for (const auto& end : step.ends) most = std::max(most, end.force.norm());
-  return most;
-}
-
 const std::string example =
-    "local bot = robot.load(\"builtin:six_axis\")\n"
-    "local rubber = rod.material{young = 6e6, poisson = 0.49, density = 1150}\n"
-    "local hose = rod.new{length = 1.6, section = rod.section{outer = 0.03, inner = 0.02, material = rubber}, segments = 16}\n"
-    "local s = scene.new{gravity = {0, 0, -9.81}}\n"
-    "s:robot(\"arm\", bot)\n"
-    "s:rod(\"hose\", hose)\n"
-    "s:attach(\"hose\", \"start\", \"arm\", \"link_2\", frame{at = {0.05, 0.2, 0.75}, along = {1, 0, 1}})\n"
-    "s:attach(\"hose\", \"finish\", \"arm\", \"link_6\", frame{at = {0.05, 0, 0.15}, along = {1, 0, 0}})\n"
+    std::string(pack_scene_example) +
     "local r = method.dress_pack(s, {path = {{0, 0, 0, 0, 0, 0}, {0.5, 0.1, -0.3, 0.3, 0.2, 0.2}, {1, 0, 0, 0.7, 0, 0}}, via = 4, checked_steps = 20})\n";
-
-void bind_pack_motion(lua_State* L) {
-  Class<dress_pack::PackSnap>(L, "A rod of a dress pack that left its equilibrium and came to rest in another one")
-      .property("t", "", "Just after this share of the path", [](const dress_pack::PackSnap& s) { return s.t; })
-      .property("move", "m", "The farthest that a place on it moved", [](const dress_pack::PackSnap& s) { return s.move; })
-      .property("energy_drop", "J", "Energy set free", [](const dress_pack::PackSnap& s) { return s.energy_drop; })
-      .tostring([](const dress_pack::PackSnap& s) { return "snap-through at t = " + plain_number(s.t) + ": " + quantity(s.move, "m"); });
-  Class<PackMotionHandle>(L, "A dress pack that follows its robot along a path, from equilibrium to equilibrium")
-      .property("ok", "", "It came to the end of the path", [](const PackMotionHandle& h) { return h.motion().ok(); })
-      .property("message", "", "What there is to say about it", [](const PackMotionHandle& h) { return h.motion().message; })
-      .property("seconds", "s", "Run time", [](const PackMotionHandle& h) { return h.motion().seconds; })
-      .property("max_tension", "N", "The largest force between a hold and its rod", [](const PackMotionHandle& h) { return h.motion().largest_end_force(); })
-      .property("max_twist", "rad/m", "The largest change against the unstressed rods", [](const PackMotionHandle& h) { return h.motion().largest_twist(); })
-      .property("min_bend_radius", "m", "The smallest", [](const PackMotionHandle& h) { return h.motion().smallest_bend_radius(); })
-      .property("clearance", "m", "The smallest of the rods from obstacles and links; infinite: nothing is near", [](const PackMotionHandle& h) { return h.motion().smallest_clearance(); })
-      .property("length", "rad or m", "Of the path, the joints together", [](const PackMotionHandle& h) { return h.path().length(); })
-      .property("times", "", "Shares of the path", [](const PackMotionHandle& h) { return over_time(h, [](const PackStep& s) { return s.t; }); })
-      .property("tensions", "N", "The largest force of a hold at those times", [](const PackMotionHandle& h) { return over_time(h, force_of); })
-      .property("residual", "N", "The largest that was left unbalanced", [](const PackMotionHandle& h) {
-        double most = 0;
-        for (const PackStep& step : h.motion().steps) most = std::max(most, step.residual);
-        return most;
-      })
-      .property("snaps", "", "Snap-throughs, in time order", [](const PackMotionHandle& h) { return h.motion().snaps; })
-      .method("frame", {.takes = {"t"}, .does = "The equilibrium, with the robot where it is, at the time step nearest to t = 0 ... 1.",
-                        .example = example + "print(r.after:frame(0.5):rod(\"hose\").length)  --> 1.6"},
-              frame_at)
-      .method("joints", {.takes = {"t"}, .does = "The robot's joint values at t = 0 ... 1.", .example = example + "print(r.after:joints(0)[1])  --> 0"},
-              joints_at)
-      .method("motion", {.options = {option<int>("states", "", "Evenly spaced, first and last among them").at_least(1).at_most(1e5).preset(40)},
-                         .does = "Its states as a motion: for envelopes, gaps and pictures.", .example = example + "print(#r.after:motion{states = 5}.equilibria)  --> 5"},
-              motion_of)
-      .tostring([](const PackMotionHandle& h) {
-        const PackMotion& m = h.motion();
-        return Card(h.optimised ? "motion on the optimised path" : "motion on the given path")
-            .row("status", m.ok() ? "solved" : name_of(m.status), m.message)
-            .row("largest force", m.largest_end_force(), "N").row("largest twist", m.largest_twist() / units::deg, "deg/m")
-            .row("min bend radius", m.smallest_bend_radius(), "m").row("min clearance", m.smallest_clearance(), "m").text();
-      });
-}
 
 void bind_search(lua_State* L) {
   Class<dress_pack::ReducedIteration>(L, "One step of the search for a better path")
@@ -209,6 +90,12 @@ void bind_search(lua_State* L) {
       .property("at_end", "", "Worst in the first or last configuration, which no via point changes", [](const dress_pack::Unmet& u) { return u.at_end; })
       .property("text", "", "In words", [](const dress_pack::Unmet& u) { return u.text; })
       .tostring([](const dress_pack::Unmet& u) { return u.text; });
+}
+
+PackMotionHandle motion_of(const DressPackHandle& h, bool optimised) {
+  const dress_pack::Result& r = *h.result;
+  return {std::shared_ptr<const PackMotion>(h.result, optimised ? &r.after : &r.before), optimised ? r.path : r.given, h.pack, h.scene,
+          optimised ? "motion on the optimised path" : "motion on the given path"};
 }
 
 std::string before_after_table(const dress_pack::Result& r) {
@@ -238,7 +125,6 @@ std::string program_of(const DressPackHandle& h, const std::string& dialect, con
 }  // namespace
 
 void bind_dress_pack(lua_State* L) {
-  bind_pack_motion(L);
   bind_search(L);
   Class<DressPackHandle>(L, "A robot's path for its hoses, before and after")
       .property("ok", "", "The path keeps all that is demanded", [](const DressPackHandle& h) { return h.result->ok; })
@@ -248,8 +134,8 @@ void bind_dress_pack(lua_State* L) {
       .property("steps", "", "Name, seconds, counts of each", [](const DressPackHandle& h) { return h.result->steps; })
       .property("path", "rad or m", "Joint values of its via points", [](const DressPackHandle& h) { return rows_of(h.result->path); })
       .property("given", "rad or m", "The path as it was, through as many via points", [](const DressPackHandle& h) { return rows_of(h.result->given); })
-      .property("before", "", "The motion on the given path", [](const DressPackHandle& h) { return PackMotionHandle{h, false}; })
-      .property("after", "", "The motion on the optimised path", [](const DressPackHandle& h) { return PackMotionHandle{h, true}; })
+      .property("before", "", "The motion on the given path", [](const DressPackHandle& h) { return motion_of(h, false); })
+      .property("after", "", "The motion on the optimised path", [](const DressPackHandle& h) { return motion_of(h, true); })
       .property("unmet", "", "Limits that the optimised path does not keep", [](const DressPackHandle& h) { return h.result->unmet; })
       .property("unmet_before", "", "Limits that the given path does not keep", [](const DressPackHandle& h) { return h.result->unmet_before; })
       .property("objective", "", "What the search made least", [](const DressPackHandle& h) { return h.result->objective; })
@@ -257,7 +143,7 @@ void bind_dress_pack(lua_State* L) {
       .property("history", "", "Of the search, step by step", [](const DressPackHandle& h) { return h.result->history; })
       .method("frame", {.takes = {"t"}, .does = "The equilibrium on the optimised path at the time step nearest to t = 0 ... 1.",
                         .example = example + "print(r:frame(0).ok)  --> true"},
-              [](const DressPackHandle& h, double t) { return frame_at({h, true}, t); })
+              [](const DressPackHandle& h, double t) { return frame_at(motion_of(h, true), t); })
       .method("program", {.takes = {"dialect"}, .options = program_form(),
                           .does = "The optimised path as the program of a robot controller, in text: \"rapid\", \"krl\", \"urscript\", \"ls\" or \"csv\".",
                           .example = example + "print(r:program(\"rapid\", {speed = 0.3}))"},

@@ -11,6 +11,8 @@ void bind_method(lua_State* L) {
   const auto builder = std::make_shared<EnvelopeBuilder>();
   bind_assembly(L);
   bind_dress_pack(L);
+  bind_pack_design(L);
+  bind_pack_motion(L);
   bind_envelope(L);
   bind_motion(L, builder);
   bind_flatten(L);
@@ -25,6 +27,7 @@ void bind_method(lua_State* L) {
   Module method(L, "method", "What engineers do with scenes: analyses and searches that take a scene and never change it");
   add_assembly_to(method);
   add_dress_pack_to(method);
+  add_pack_design_to(method);
   add_flatten_to(method);
   add_harness_to(method);
   add_preform_to(method);

@@ -11,11 +11,11 @@ local function degrees(rows)
 end
 
 --- The six-axis arm with a hose of 1.6 m from its upper arm to its hand.
-local function cell()
+local function cell(length)
   local rubber = rod.material{young = 6e6, poisson = 0.49, density = 1150}
   local s = scene.new{gravity = {0, 0, -9.81}}
   local arm = s:robot("arm", robot.load("builtin:six_axis"))
-  s:rod("hose", rod.new{length = 1.6, section = rod.section{outer = 40 * mm, inner = 28 * mm, material = rubber}, segments = 16})
+  s:rod("hose", rod.new{length = length or 1.6, section = rod.section{outer = 40 * mm, inner = 28 * mm, material = rubber}, segments = 16})
   s:attach("hose", "start", "arm", "link_2", frame{at = {0.05, 0.2, 0.75}, along = {1, 0, 1}})
   s:attach("hose", "finish", "arm", "link_6", frame{at = {0.13, 0, 0.15}, along = {1, 0, 0}})
   return s, arm
@@ -122,6 +122,55 @@ check.case("what the first configuration breaks already, no path keeps", functio
   check.equal(floor.status, "infeasible")
   check.equal(floor.unmet[1].at_end, true)
   check.contains(floor.message, "the best path found has a force of", "at t = 0, an end of the path")
+end)
+
+check.case("a hose that must keep clear of a post does", function()
+  local conduit = rod.material{young = 30e6, poisson = 0.4, density = 1200}
+  local posted = scene.new{gravity = {0, 0, -9.81}}
+  posted:obstacle("post", scene.box{size = {60 * mm, 60 * mm, 1.2}}, {pose = frame{at = {1.85, 0.45, 0.95}, along = {0, 0, 1}}})
+  posted:robot("arm", robot.load("builtin:six_axis"))
+  posted:rod("hose", rod.new{length = 1.9, section = rod.section{outer = 50 * mm, inner = 36 * mm, material = conduit}, segments = 16})
+  posted:attach("hose", "start", "arm", "link_3", frame{at = {0, 0, 0.50}, along = {1, 0, 1.4}})
+  posted:attach("hose", "finish", "arm", "link_6", frame{at = {0.22, 0, 0.10}, along = {-1, 0, 1}, up = {0, 1, 0}})
+  local path = degrees{{18, 8, 37, 25, -48, -17}, {-22, 9, 35, -30, -49, 21}}
+  local wish = {path = path, via = 6, max_tension = 130, checked_steps = 60}
+  local free = method.dress_pack(posted, wish)
+  wish.clearance = 15 * mm
+  local kept = method.dress_pack(posted, wish)
+  check.equal(kept.ok, true, kept.message)
+  assert(free.after.clearance < 14 * mm, free.after.clearance)
+  assert(kept.after.clearance >= 15 * mm - 1e-5, kept.after.clearance)
+  -- Ends that do not keep it are refused at once.
+  wish.clearance = 2
+  local never = method.dress_pack(posted, wish)
+  check.equal(never.status, "infeasible")
+  check.contains(never.message, "at the start of the path", "hose")
+end)
+
+check.case("the length of a hose is adjusted for a motion", function()
+  local function wish(low, high)
+    return {adjust = {["hose.length"] = {low, high}}, steps = 12, max_tension = 10, motions = {{taut[1], degrees{{15, 5, -30, 10, 20, 0}}[1]}}}
+  end
+  local d = method.dress_pack_design(cell(), wish(1.4, 2.2))
+  check.equal(d.ok, true, d.message)
+  local length = d.values["hose.length"]
+  assert(length >= 1.4 and length <= 2.2, length)
+  assert(d.objective < d.objective_before)
+  -- Neither a little shorter nor a little longer is better, by scenes made anew.
+  for _, other in ipairs{length - 0.02, length + 0.02} do
+    if other > 1.4 and other < 2.2 then
+      local made = method.dress_pack_design(cell(other), wish(other - 1e-3, other + 1e-3))
+      assert(made.objective_before >= d.objective - 1e-9, made.objective_before .. " at " .. other)
+    end
+  end
+  check.equal(#d.after, 1)
+  assert(d.after[1].max_tension <= d.before[1].max_tension)
+  check.equal(d.after[1]:frame(1).ok, true)
+  check.contains(d, "dress pack design", "hose.length", "largest force, motion 1")
+  check.raises(function() method.dress_pack_design(cell(), {adjust = {["hose.lenth"] = {1, 2}}, motions = {taut}}) end, "hose.lenth", "hose.length")
+  check.raises(function() method.dress_pack_design(cell(), {adjust = {["hose.length"] = {1, 2}}, motions = {}}) end, "no paths")
+  check.raises(function() method.dress_pack_design(cell(), {adjust = {}, motions = {taut}}) end, "parameter")
+  check.raises(function() method.dress_pack_design(cell(), {adjust = {["hose.length"] = {1, 2}}, motions = {taut}, weights = {1, 2}}) end, "2 weights for 1 motions")
 end)
 
 check.case("what cannot be is refused, with the reason", function()

@@ -14,7 +14,7 @@ constexpr int most_rounds = 4;
 constexpr double early = 0.9;     // of a limit: from there on it counts
 constexpr double scale = 0.5;     // of a limit, in the first round
 constexpr double sharper = 0.5;   // from round to round
-constexpr double mean_square_soft = 1e-6;
+constexpr double smallest_force = 1e-6;  // N, that can be a unit
 
 /// Of a quantity that should stay below `limit`.
 Demand below(double limit, int round) { return {early * limit, scale * limit * std::pow(sharper, round)}; }
@@ -85,7 +85,7 @@ class Method {
     ReducedOptions search;
     search.steps = options_.steps;
     search.seconds = options_.seconds;
-    search.demands = demands_of(options_.limits, out_.before, round);
+    search.demands = demands_of(options_.limits, out_.before.largest_end_force(), round);
     search.weights = options_.weights;
     search.tolerance = options_.tolerance;
     search.most_iterations = options_.most_iterations;
@@ -148,13 +148,12 @@ class Method {
 
 const char* name_of(Formulation formulation) { return formulation == Formulation::reduced ? "reduced" : "direct"; }
 
-PackDemands demands_of(const Limits& limits, const PackMotion& before, int round) {
+PackDemands demands_of(const Limits& limits, double usual_force, int round) {
   PackDemands demands;
   if (std::isfinite(limits.max_tension)) {
     demands.force = below(limits.max_tension, round);
   } else {
-    const double largest = before.largest_end_force();
-    demands.force = {0, std::isfinite(largest) && largest > mean_square_soft ? largest : 1};
+    demands.force = {0, std::isfinite(usual_force) && usual_force > smallest_force ? usual_force : 1};
   }
   if (std::isfinite(limits.max_twist)) demands.twist = below(limits.max_twist, round);
   if (limits.min_bend_radius > 0) demands.curvature = below(1 / limits.min_bend_radius, round);

@@ -57,9 +57,8 @@ struct Result {
 /// rods find no equilibrium at the start, is infeasible, with the reason. Cancelled or out of time, the best path so far stands.
 Result run(const PackProblem& pack, const JointPath& path, const Options& options = {}, const RunContext& context = {});
 
-/// What the search minimises for these limits. Forces, twist and bending count from a tenth before their limits. Without a limit of
-/// forces, their mean square counts, in units of the largest one on the given path. Each round makes what lies beyond a limit weigh
-/// four times as much.
-PackDemands demands_of(const Limits& limits, const PackMotion& before, int round);
+/// What a search minimises for these limits. Forces, twist and bending count from a tenth before their limits. Without a limit of
+/// forces their mean square counts, in units of `usual_force` (N). Each round makes what lies beyond a limit weigh four times as much.
+PackDemands demands_of(const Limits& limits, double usual_force, int round);
 
 }  // namespace tendril::dress_pack
