@@ -82,6 +82,6 @@ for number = 1, 3 do
         :save(("%s_%s.png"):format(name, when), {fit = fit, frames = 6})
     end
     local swept = r.after:motion{states = given.steps}
-    view.new{cell, swept, envelope = swept:envelope{cell = 8 * mm}.mesh, title = "What the hose sweeps on way 1"}:save(name .. "_sweep.png", {fit = fit, frames = 4})
+    view.new{cell, swept, envelope = (swept:envelope{resolution = 10 * mm}), title = "What the hose sweeps on way 1"}:save(name .. "_sweep.png", {fit = fit, frames = 4})
   end
 end

@@ -95,9 +95,9 @@ void bind_pack_motion(lua_State* L) {
       })
       .property("snaps", "", "Snap-throughs, in time order", [](const PackMotionHandle& h) { return h.motion->snaps; })
       .method("frame", {.takes = {"t"}, .does = "The equilibrium, with the robot where it is, at the time step nearest to t = 0 ... 1.",
-                        .example = example + "print(r.after:frame(0.5):rod(\"hose\").length)  --> 1.6"},
+                        .example = example + "print(r.after:frame(0.5).ok)  --> true"},
               frame_at)
-      .method("joints", {.takes = {"t"}, .does = "The robot's joint values at t = 0 ... 1.", .example = example + "print(r.after:joints(0)[1])  --> 0"},
+      .method("joints", {.takes = {"t"}, .does = "The robot's joint values at t = 0 ... 1.", .example = example + "print(#r.after:joints(0))  --> 6"},
               joints_at)
       .method("motion", {.options = {option<int>("states", "", "Evenly spaced, first and last among them").at_least(1).at_most(1e5).preset(40)},
                          .does = "Its states as a motion: for envelopes, gaps and pictures.", .example = example + "print(#r.after:motion{states = 5}.equilibria)  --> 5"},

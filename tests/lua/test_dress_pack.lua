@@ -85,6 +85,15 @@ check.case("a motion of its own, for envelopes and gaps", function()
   assert(least >= r.after.clearance - 1e-3, least)
 end)
 
+check.case("cards and charts", function()
+  check.contains(r, "dress pack", "largest force of a hold", "given path", "optimised path")
+  check.contains(r.after, "motion on the optimised path", "largest force")
+  local saved = r:chart{title = "Spared"}:save(out .. "/chart.png")
+  check.equal(saved.ok, true)
+  check.equal(r.steps[1].name, "simulation of the given path")
+  assert(#r.history > 0 and r.history[#r.history].objective <= r.objective_before)
+end)
+
 check.case("programs of the optimised path", function()
   local rapid = r:program("rapid", {speed = 0.3, name = "weld"})
   check.contains(rapid, "weld", "MoveAbsJ")
@@ -98,15 +107,6 @@ check.case("programs of the optimised path", function()
     for k = 1, 6 do check.near(q[k], r.path[i][k], 1e-6) end
   end
   check.raises(function() r:program("basic") end, "dialect", "rapid")
-end)
-
-check.case("cards and charts", function()
-  check.contains(r, "dress pack", "largest force of a hold", "given path", "optimised path")
-  check.contains(r.after, "motion on the optimised path", "largest force")
-  local saved = r:chart{title = "Spared"}:save(out .. "/chart.png")
-  check.equal(saved.ok, true)
-  check.equal(r.steps[1].name, "simulation of the given path")
-  assert(#r.history > 0 and r.history[#r.history].objective <= r.objective_before)
 end)
 
 check.case("a path that is only looked at", function()

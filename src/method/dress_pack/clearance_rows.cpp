@@ -22,7 +22,7 @@ ClearanceRows::ClearanceRows(const PackStatics& statics, const PackDemands& dema
     : pack_(statics.pack()), demands_(demands), memory_(states), link_memory_(states) {
   if (!any()) return;
   bodies_ = std::make_unique<PackBodies>(pack_, Sides::of_meshes_too);
-  gaps_ = std::make_unique<PackGaps>(*bodies_, statics.network());
+  gaps_ = std::make_unique<PackGaps>(*bodies_, statics.network(), Compared::clearance);
   if (demands_.robot_clearance >= 0) links_ = std::make_unique<RobotGaps>(*bodies_);
 }
 

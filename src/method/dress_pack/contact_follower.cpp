@@ -77,7 +77,7 @@ ContactFollower::ContactFollower(PackBodies& bodies, const ContactLimits& limits
 
 const PackGaps& ContactFollower::gaps() {
   if (!gaps_ || pack_.slides()) {
-    gaps_ = std::make_unique<PackGaps>(bodies_, here_);
+    gaps_ = std::make_unique<PackGaps>(bodies_, here_, Compared::contact);
     memory_ = {};
   }
   return *gaps_;

@@ -26,11 +26,15 @@ PackBodies::PackBodies(const PackProblem& pack, Sides sides) : pack_(pack), rigi
     const bool told = mesh && sides == Sides::of_meshes_too && (*mesh)->topology().watertight();
     inside_.push_back(told ? std::make_shared<const InsideTest>((*mesh)->mesh()) : nullptr);
   }
-  for (std::size_t k = 0; k < pack.rods.size(); ++k)
-    for (const Hold& hold : pack.rods[k].holds)
-      if (hold.position) skips_.push_back({hold.at, pack.rods[k].rod.section_at(hold.at).radius(), static_cast<int>(k), -1});
-  for (const Attachment& a : pack.attachments)
-    skips_.push_back({pack.rods[a.rod].holds[a.hold].at, fitting_radii * pack.rods[a.rod].rod.section_at(pack.rods[a.rod].holds[a.hold].at).radius(), a.rod, rigid_[a.link]});
+  for (int k = 0; k < static_cast<int>(pack.rods.size()); ++k)
+    for (int h = 0; h < static_cast<int>(pack.rods[k].holds.size()); ++h) {
+      const Hold& hold = pack.rods[k].holds[h];
+      if (!hold.position) continue;
+      const auto carried = std::find_if(pack.attachments.begin(), pack.attachments.end(), [&](const Attachment& a) { return a.rod == k && a.hold == h; });
+      const double radius = pack.rods[k].rod.section_at(hold.at).radius();
+      skips_.push_back({hold.at, radius, k, any});
+      skips_.push_back({hold.at, fitting_radii * radius, k, carried == pack.attachments.end() ? -1 : rigid_[carried->link]});
+    }
 }
 
 void PackBodies::poses(const JointVector& q, std::vector<BodyPose>& out) const {
@@ -70,11 +74,11 @@ bool PackBodies::passes(int body, const Vec3& from, const Vec3& to) const {
   return std::get<0>(shape)->tree().ray(from, to).has_value();
 }
 
-bool PackBodies::compared(int rod, double s, int body) const {
-  const int link = pack_.bodies[body].link;
+bool PackBodies::compared(int rod, double s, int body, Compared what) const {
+  const int link = pack_.bodies[body].link, group = link < 0 ? -1 : rigid_[link];
   for (const Skip& skip : skips_) {
     if (skip.rod != rod || std::abs(s - skip.at) > skip.reach * (1 + 1e-9)) continue;
-    if (skip.group < 0 || (link >= 0 && rigid_[link] == skip.group)) return false;
+    if (skip.group == any ? what == Compared::contact : skip.group == group) return false;
   }
   return true;
 }

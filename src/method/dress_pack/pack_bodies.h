@@ -28,6 +28,9 @@ struct BodyDistance {
 /// Whether points inside a closed mesh are told from those outside: it costs a test for each, and the mesh's topology.
 enum class Sides { as_solids, of_meshes_too };
 
+/// What places on rods and bodies are compared for.
+enum class Compared { clearance, contact };
+
 class PackBodies {
  public:
   /// The pack must outlive this. Throws UsageError for bodies that Surroundings refuses.
@@ -48,9 +51,9 @@ class PackBodies {
   /// Whether a straight path in the body's axes enters the body.
   bool passes(int body, const Vec3& from, const Vec3& to) const;
 
-  /// A stretch of rod near a hold lies near the link that carries it: within four radii of arc length it is not compared with that
-  /// link's bodies, nor within one radius of a held place with any.
-  bool compared(int rod, double s, int body) const;
+  /// A stretch of rod near a hold lies near what carries it: within four radii of arc length it is not compared with that link's bodies,
+  /// or with fixed ones where no link carries the hold. Contact does nothing within one radius of a held place, whatever the body.
+  bool compared(int rod, double s, int body, Compared what) const;
 
   /// The links' bodies go where the robot has them.
   void move(const JointVector& q);
@@ -63,9 +66,10 @@ class PackBodies {
   const PackProblem& pack_;
   Surroundings surroundings_;
   std::vector<int> rigid_;            ///< of each link: the first one that it is joined to rigidly
+  static constexpr int any = -2;
   struct Skip {
     double at, reach;                 ///< m
-    int rod, group;                   ///< of links; -1: any body
+    int rod, group;                   ///< of links; -1: fixed bodies; any: all bodies, for contact alone
   };
   std::vector<Skip> skips_;
   std::vector<Eigen::AlignedBox3d> boxes_;  ///< in the bodies' axes, m

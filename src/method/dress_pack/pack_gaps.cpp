@@ -10,18 +10,18 @@ constexpr double look_ahead = 0.3;  // m, beyond what is asked: saves later quer
 
 }  // namespace
 
-PackGaps::PackGaps(const PackBodies& bodies, const RodNetwork& network) : bodies_(bodies) {
+PackGaps::PackGaps(const PackBodies& bodies, const RodNetwork& network, Compared what) : bodies_(bodies) {
   for (int k = 0; k < network.rods(); ++k) {
     std::vector<double> radii;
     for (const MeshSegment& segment : network.rod(k).mesh().segments) radii.push_back(segment.section.radius());
     add_rod(network.rod(k).mesh().s, std::move(radii));
   }
-  finish();
+  finish(what);
 }
 
-PackGaps::PackGaps(const PackBodies& bodies, const SystemEquilibrium& equilibrium) : bodies_(bodies) {
+PackGaps::PackGaps(const PackBodies& bodies, const SystemEquilibrium& equilibrium, Compared what) : bodies_(bodies) {
   for (const Equilibrium& rod : equilibrium.rods) add_rod(rod.s, rod.radii);
-  finish();
+  finish(what);
 }
 
 void PackGaps::add_rod(std::vector<double> s, std::vector<double> radii) {
@@ -40,13 +40,13 @@ void PackGaps::add_rod(std::vector<double> s, std::vector<double> radii) {
   rods_.push_back({first_node, first_segment, first_point, std::move(s), std::move(radii)});
 }
 
-void PackGaps::finish() {
+void PackGaps::finish(Compared what) {
   compared_.assign(points_.size() * bodies(), 0);
   segment_compared_.assign(segments_.size() * bodies(), 0);
   for (int g = 0; g < static_cast<int>(segments_.size()); ++g)
     for (int p = segments_[g].first_point; p < segments_[g].last_point; ++p)
       for (int b = 0; b < bodies(); ++b) {
-        compared_[p * bodies() + b] = bodies_.compared(rod_of_[p], points_[p].s, b);
+        compared_[p * bodies() + b] = bodies_.compared(rod_of_[p], points_[p].s, b, what);
         segment_compared_[g * bodies() + b] |= compared_[p * bodies() + b];
       }
 }

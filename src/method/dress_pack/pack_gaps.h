@@ -25,9 +25,9 @@ struct PackPlaces {
 class PackGaps {
  public:
   /// The bodies must outlive this.
-  PackGaps(const PackBodies& bodies, const RodNetwork& network);
+  PackGaps(const PackBodies& bodies, const RodNetwork& network, Compared what);
   /// For a solution whose segments have other lengths than the problem's, as where rods slide through holds.
-  PackGaps(const PackBodies& bodies, const SystemEquilibrium& equilibrium);
+  PackGaps(const PackBodies& bodies, const SystemEquilibrium& equilibrium, Compared what);
 
   int points() const { return static_cast<int>(points_.size()); }
   const ContactPoint& point(int p) const { return points_[p]; }
@@ -87,7 +87,7 @@ class PackGaps {
     double radius;                     ///< m, the largest of its points
   };
   void add_rod(std::vector<double> s, std::vector<double> radii);
-  void finish();
+  void finish(Compared what);
   int bodies() const { return bodies_.size(); }
   double segment_bound(int g, int b, const Vec3& in_body, double needed, Memory& memory) const;
   double point_bound(int p, int b, const Vec3& in_body, double needed, Memory& memory, BodyDistance* found) const;

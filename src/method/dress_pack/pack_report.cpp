@@ -48,7 +48,7 @@ void PackReporter::report(PackStatics& statics, PackStep& step) {
     step.rods.push_back(report_of(rod));
   }
   if (bodies_.size() == 0) return;
-  if (!gaps_) gaps_.emplace(bodies_, network);
+  if (!gaps_) gaps_.emplace(bodies_, network, Compared::clearance);
   add_clearances(*gaps_, step);
 }
 
@@ -68,7 +68,7 @@ void PackReporter::report(const SystemEquilibrium& equilibrium, PackStep& step) 
   }
   if (bodies_.size() == 0) return;
   if (!gaps_ || pack.slides()) {
-    gaps_.emplace(bodies_, equilibrium);
+    gaps_.emplace(bodies_, equilibrium, Compared::clearance);
     memory_ = {};
   }
   add_clearances(*gaps_, step);

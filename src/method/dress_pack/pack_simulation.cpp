@@ -42,7 +42,7 @@ std::vector<double> stations(const JointPath& path, double from, double to) {
 /// Compares each motion of the free pack with the places before.
 class GapWatch final : public MotionWatch {
  public:
-  GapWatch(const PackBodies& bodies, const RodNetwork& network) : gaps_(bodies, network) {}
+  GapWatch(const PackBodies& bodies, const RodNetwork& network) : gaps_(bodies, network, Compared::contact) {}
 
   void stand_at(const RodState& state, const JointVector& q) { gaps_.place(state, q, before_); }
   bool touches() { return !gaps_.watch(before_, before_, touching_radii, memory_).clear; }

@@ -219,7 +219,7 @@ TEST_CASE("clearance rows: a ball's gap is the distance of its middle less both 
   rows.near(statics, state, q, 0, 1, found);
   REQUIRE(found.size() > 3);
   const PackBodies bodies(pack);
-  const PackGaps gaps(bodies, statics.network());
+  const PackGaps gaps(bodies, statics.network(), Compared::clearance);
   PackPlaces places;
   gaps.place(state, q, places);
   double least = 1e9;

@@ -74,14 +74,24 @@ TEST_CASE("bodies of a pack: near a hold a rod is not compared with the link tha
   pack.bodies.push_back({{Sphere{0.1}, {}, 0, "hand"}, 7});  // joined rigidly to link 6
   const PackBodies bodies(pack);
   const double radius = 0.015, length = 1.6;
-  CHECK_FALSE(bodies.compared(0, 0, 0));
-  CHECK_FALSE(bodies.compared(0, 3.99 * radius, 0));
-  CHECK(bodies.compared(0, 4.01 * radius, 0));
-  CHECK(bodies.compared(0, length - 2 * radius, 0));
-  CHECK_FALSE(bodies.compared(0, 0.99 * radius, 1));  // where a rod leaves its fitting
-  CHECK(bodies.compared(0, 1.01 * radius, 1));
-  CHECK_FALSE(bodies.compared(0, length - 3.99 * radius, 2));
-  CHECK(bodies.compared(0, 2 * radius, 2));
+  for (const Compared what : {Compared::clearance, Compared::contact}) {
+    CHECK_FALSE(bodies.compared(0, 0, 0, what));
+    CHECK_FALSE(bodies.compared(0, 3.99 * radius, 0, what));
+    CHECK(bodies.compared(0, 4.01 * radius, 0, what));
+    CHECK(bodies.compared(0, length - 2 * radius, 0, what));
+    CHECK(bodies.compared(0, 1.01 * radius, 1, what));
+    CHECK_FALSE(bodies.compared(0, length - 3.99 * radius, 2, what));
+    CHECK(bodies.compared(0, 2 * radius, 2, what));
+  }
+  // Contact cannot move a held place, but it must keep its clearance.
+  CHECK_FALSE(bodies.compared(0, 0.99 * radius, 1, Compared::contact));
+  CHECK(bodies.compared(0, 0.99 * radius, 1, Compared::clearance));
+  // What is held in the world is fastened to something fixed.
+  pack.attachments.pop_back();
+  const PackBodies held(pack);
+  CHECK_FALSE(held.compared(0, length - 3.99 * radius, 1, Compared::clearance));
+  CHECK(held.compared(0, length - 4.01 * radius, 1, Compared::clearance));
+  CHECK(held.compared(0, length - 3.99 * radius, 2, Compared::clearance));
 }
 
 TEST_CASE("gaps of a pack: the smallest is that of a fine scan, along a motion with one memory", "[dress_pack]") {
@@ -95,7 +105,7 @@ TEST_CASE("gaps of a pack: the smallest is that of a fine scan, along a motion w
   REQUIRE(motion.ok());
   const PackBodies bodies(pack);
   const PackStatics statics(pack);
-  const PackGaps gaps(bodies, statics.network());
+  const PackGaps gaps(bodies, statics.network(), Compared::contact);
   PackGaps::Memory memory;
   PackPlaces places;
   for (const PackStep& step : motion.steps) {
@@ -105,7 +115,7 @@ TEST_CASE("gaps of a pack: the smallest is that of a fine scan, along a motion w
     int body = -1;
     for (int p = 0; p < gaps.points(); ++p)
       for (int b = 0; b < bodies.size(); ++b) {
-        if (!bodies.compared(0, gaps.point(p).s, b)) continue;
+        if (!bodies.compared(0, gaps.point(p).s, b, Compared::contact)) continue;
         const double gap = bodies.distance(b, places.bodies[b].to_body(places.points[p]), 1e9).distance - gaps.point(p).radius;
         if (gap < least) least = gap, body = b;
       }
