@@ -47,6 +47,24 @@ class DistanceTree {
   /// within the plane of a triangle does not cross it; a path through a shared edge or vertex never slips between.
   std::optional<Hit> ray(const Vec3& a, const Vec3& b) const;
 
+  /// An oriented box, flat or thin where it has to be: the columns of `axes` are unit vectors, `half` its half lengths, m.
+  struct OrientedBox {
+    Vec3 middle = Vec3::Zero();
+    Mat3 axes = Mat3::Identity();
+    Vec3 half = Vec3::Zero();
+  };
+  /// A child of an inner part of the tree, or a triangle of a leaf.
+  struct Near {
+    int part;        ///< of an inner part: another one, or a leaf below zero; of a leaf: the triangle
+    float at_least;  ///< m: it is no nearer to the box
+    float size;      ///< m, half the diagonal of a part's box; 0 for triangles
+  };
+  static constexpr int whole = 0;  ///< the part that is all of the tree
+  /// For the search through two trees at once: the children of an inner part, or the triangles of a leaf, that are not
+  /// found to be as far as `range` (m) from the box. `direction`: a unit vector along which to look for a gap, from this
+  /// mesh to the box, or zero. Returns how many; the nearest is the last.
+  int near(int part, const OrientedBox& box, const Vec3& direction, double range, Near (&out)[8]) const;
+
   const Mesh& mesh() const { return mesh_; }
   std::size_t bytes() const { return nodes_.size() * sizeof(Node) + leaves_.size() * sizeof(Leaf); }
 
@@ -85,6 +103,9 @@ class DistanceTree {
     const double sum = distance + margin;
     return static_cast<float>(sum * sum * (1 + 1e-6));
   }
+  struct Probe;
+  static Float8 part_gaps(const Node& node, const Probe& probe);
+  static Float8 leaf_gaps(const Leaf& leaf, const Probe& probe);
   struct Shortlist;
   void settle(const Vec3& p, Shortlist& shortlist, Nearest& best) const;
   void measure(const Vec3& p, int triangle, Nearest& best) const;

@@ -20,9 +20,9 @@ struct BodyPose {
 /// What the distance of a point from a body is, all in the body's axes. Negative inside solids, and inside closed meshes where
 /// sides are told.
 struct BodyDistance {
-  double distance;  ///< m; the limit when the body is no nearer
-  Vec3 point;       ///< of the surface
-  bool found;
+  double distance = 0;         ///< m; the limit when the body is no nearer
+  Vec3 point = Vec3::Zero();   ///< of the surface
+  bool found = false;
 };
 
 /// Whether points inside a closed mesh are told from those outside: it costs a test for each, and the mesh's topology.

@@ -4,8 +4,7 @@
 #include <cmath>
 
 #include "base/units.h"
-#include "geometry/closest_point.h"
-#include "method/dress_pack/triangle_pair.h"
+#include "method/dress_pack/mesh_pair.h"
 
 namespace tendril::dress_pack {
 namespace {
@@ -47,61 +46,15 @@ std::shared_ptr<const TriangleSurface> surface_of(const std::variant<std::shared
 
 }  // namespace
 
-/// A body with balls about parts of its mesh, halved until one triangle is left.
+/// A body as a ball, a half-space or a mesh, this one with its boxes where a link carries it.
 struct RobotGaps::Shape {
   std::shared_ptr<const TriangleSurface> surface;  ///< null: a sphere or a half-space
   double ball = -1;                                ///< m, radius of a sphere; negative: none
-  struct Node {
-    Vec3 middle;
-    double radius;
-    int first, count;                              ///< triangles of `order`
-    int child = -1;                                ///< and the next one; -1: a leaf
-  };
-  std::vector<Node> nodes;
-  std::vector<int> order;
+  std::unique_ptr<const BoxTree> boxes;
 
   explicit Shape(const std::variant<std::shared_ptr<const TriangleSurface>, Solid>& given) : surface(surface_of(given)) {
     if (surface) return;
     if (const auto* sphere = std::get_if<Sphere>(&std::get<1>(given))) ball = sphere->radius;
-  }
-
-  void build() {
-    const Mesh& mesh = surface->mesh();
-    order.resize(mesh.triangles.size());
-    for (std::size_t k = 0; k < order.size(); ++k) order[k] = static_cast<int>(k);
-    nodes.reserve(2 * order.size());
-    nodes.push_back(node_of(0, static_cast<int>(order.size())));
-    for (std::size_t k = 0; k < nodes.size(); ++k) {
-      if (nodes[k].count <= 1) continue;
-      const int first = nodes[k].first, count = nodes[k].count, half = count / 2;
-      Eigen::AlignedBox3d box;
-      for (int i = first; i < first + count; ++i) box.extend(middle(order[i]));
-      int axis;
-      box.sizes().maxCoeff(&axis);
-      std::nth_element(order.begin() + first, order.begin() + first + half, order.begin() + first + count, [&](int a, int b) {
-        const double at_a = middle(a)[axis], at_b = middle(b)[axis];
-        return at_a < at_b || (at_a == at_b && a < b);
-      });
-      nodes[k].child = static_cast<int>(nodes.size());
-      nodes.push_back(node_of(first, half));
-      nodes.push_back(node_of(first + half, count - half));
-    }
-  }
-
-  Vec3 middle(int triangle) const {
-    const auto& t = surface->mesh().triangles[triangle];
-    const auto& v = surface->mesh().vertices;
-    return (v[t[0]] + v[t[1]] + v[t[2]]) / 3;
-  }
-  Node node_of(int first, int count) const {
-    Eigen::AlignedBox3d box;
-    for (int i = first; i < first + count; ++i)
-      for (const int v : surface->mesh().triangles[order[i]]) box.extend(surface->mesh().vertices[v]);
-    double square = 0;
-    for (int i = first; i < first + count; ++i)
-      for (const int v : surface->mesh().triangles[order[i]])
-        square = std::max(square, (surface->mesh().vertices[v] - box.center()).squaredNorm());
-    return {box.center(), std::sqrt(square), first, count};
   }
 };
 
@@ -110,7 +63,7 @@ RobotGaps::RobotGaps(const PackBodies& bodies) : bodies_(bodies) {
   for (int b = 0; b < bodies.size(); ++b) shapes.push_back(std::make_shared<Shape>(bodies.pack().bodies[b].body.shape));
   for (int a = 0; a < bodies.size(); ++a) {
     if (!bodies.moves(a)) continue;
-    if (shapes[a]->surface) shapes[a]->build();
+    if (shapes[a]->surface) shapes[a]->boxes = std::make_unique<const BoxTree>(shapes[a]->surface->mesh());
     if (!shapes[a]->surface && shapes[a]->ball < 0) continue;  // a half-space on a link has no other side
     for (int b = 0; b < bodies.size(); ++b)
       if (bodies.fixed(b)) pairs_.push_back({a, b});
@@ -120,80 +73,10 @@ RobotGaps::RobotGaps(const PackBodies& bodies) : bodies_(bodies) {
 
 namespace {
 
-/// Branch and bound: the surface of a link's body, seen from the other one's axes, against that one's tree.
-class MeshPairSearch {
- public:
-  MeshPairSearch(const TriangleSurface& a, const TriangleSurface& b, const BodyPose& at_a, const BodyPose& at_b, double limit)
-      : a_(a.mesh()), b_(b.mesh()), tree_(b.tree()), turn_(at_b.axes.transpose() * at_a.axes), shift_(at_b.to_body(at_a.at)), best_{limit, {}, {}} {}
-
-  template <class Nodes>
-  void run(const Nodes& nodes, const std::vector<int>& order) {
-    std::vector<int> stack = {0};
-    while (!stack.empty() && best_.distance > 0) {
-      const auto& node = nodes[stack.back()];
-      stack.pop_back();
-      const Vec3 middle = turn_ * node.middle + shift_;
-      if (node.child < 0) {
-        measure(order[node.first], middle, node.radius);
-        continue;
-      }
-      const auto &left = nodes[node.child], &right = nodes[node.child + 1];
-      const double to_left = tree_.closest(turn_ * left.middle + shift_, best_.distance + left.radius).distance - left.radius;
-      const double to_right = tree_.closest(turn_ * right.middle + shift_, best_.distance + right.radius).distance - right.radius;
-      const bool left_first = to_left <= to_right;  // the last on the stack is the next one
-      const int near = left_first ? node.child : node.child + 1, far = left_first ? node.child + 1 : node.child;
-      if (std::max(to_left, to_right) < best_.distance) stack.push_back(far);
-      if (std::min(to_left, to_right) < best_.distance) stack.push_back(near);
-    }
-  }
-
-  /// Two triangles that are likely to be near: the rest is judged by them.
-  void begin(int triangle, int other) {
-    if (triangle < 0) return;
-    Vec3 a[3];
-    corners(triangle, a);
-    compare(a, triangle, other);
-  }
-  int triangle() const { return triangle_; }
-  int other_triangle() const { return other_; }
-
-  const TrianglePair& best() const { return best_; }  ///< in b's axes
-  bool found() const { return found_; }
-
- private:
-  void corners(int triangle, Vec3 (&a)[3]) const {
-    for (int k = 0; k < 3; ++k) a[k] = turn_ * a_.vertices[a_.triangles[triangle][k]] + shift_;
-  }
-
-  void compare(const Vec3 (&a)[3], int triangle, int other) {
-    const Vec3 b[3] = {b_.vertices[b_.triangles[other][0]], b_.vertices[b_.triangles[other][1]], b_.vertices[b_.triangles[other][2]]};
-    const TrianglePair pair = closest_of_triangles(a, b);
-    if (!(pair.distance < best_.distance)) return;
-    best_ = pair;
-    triangle_ = triangle;
-    other_ = other;
-    found_ = true;
-  }
-
-  void measure(int triangle, const Vec3& middle, double radius) {
-    Vec3 a[3];
-    corners(triangle, a);
-    tree_.visit_near(middle, best_.distance + radius, [&](int other) { compare(a, triangle, other); });
-  }
-
-  const Mesh &a_, &b_;
-  const DistanceTree& tree_;
-  Mat3 turn_;
-  Vec3 shift_;
-  TrianglePair best_;
-  int triangle_ = -1, other_ = -1;
-  bool found_ = false;
-};
-
 /// The corner of one mesh that lies deepest inside the body `other`.
 bool deepest_corner(const PackBodies& bodies, const Mesh& mesh, const BodyPose& at, int other, const BodyPose& at_other, Vec3& corner,
                     BodyDistance& deepest) {
-  deepest = {0, {}, false};
+  deepest = {};
   for (const Vec3& v : mesh.vertices) {
     const BodyDistance found = bodies.distance(other, at_other.to_body(at.to_world(v)), 0);
     if (!(found.distance < deepest.distance)) continue;
@@ -229,25 +112,23 @@ LinkGap RobotGaps::measure(const Pair& pair, const std::vector<BodyPose>& poses,
     }
     return best;
   }
-  MeshPairSearch search(*a.surface, *b.surface, at_a, at_b, limit);
-  search.begin(known.triangle, known.other_triangle);
-  search.run(a.nodes, a.order);
-  known.triangle = search.triangle();
-  known.other_triangle = search.other_triangle();
+  const RelativePose pose{at_b.axes.transpose() * at_a.axes, at_b.to_body(at_a.at)};
+  const MeshPair found = closest_of_meshes(*a.boxes, *b.surface, pose, limit, known.triangles);
+  known.triangles = found.triangles;
   const Vec3 some = at_b.to_body(at_a.to_world(a.surface->mesh().vertices.front()));
   const bool within = bodies_.distance(pair.other, some, 0).distance < 0;
-  if (within || (search.found() && search.best().distance <= meeting)) {
+  if (within || (found.found() && found.nearest.distance <= meeting)) {
     Vec3 corner;
     BodyDistance deepest;
-    LinkGap best{0, pair.body, pair.other, at_b.to_world(search.best().on_a), at_b.to_world(search.best().on_b)};
+    LinkGap best{0, pair.body, pair.other, at_b.to_world(found.nearest.on_a), at_b.to_world(found.nearest.on_b)};
     if (deepest_corner(bodies_, a.surface->mesh(), at_a, pair.other, at_b, corner, deepest))
       best = {deepest.distance, pair.body, pair.other, corner, at_b.to_world(deepest.point)};
     if (deepest_corner(bodies_, b.surface->mesh(), at_b, pair.body, at_a, corner, deepest) && deepest.distance < best.gap)
       best = {deepest.distance, pair.body, pair.other, at_a.to_world(deepest.point), corner};
     return best;
   }
-  if (!search.found()) return nothing;
-  return {search.best().distance, pair.body, pair.other, at_b.to_world(search.best().on_a), at_b.to_world(search.best().on_b)};
+  if (!found.found()) return nothing;
+  return {found.nearest.distance, pair.body, pair.other, at_b.to_world(found.nearest.on_a), at_b.to_world(found.nearest.on_b)};
 }
 
 /// No point of the link's body has moved farther in the other one's axes than the farthest corner of its box.

@@ -1,14 +1,14 @@
 // How far the bodies of a robot's links are from the fixed ones: exact, surface to surface.
 //
-// Meshes against meshes by branch and bound: balls about parts of the link's mesh, their middles' distances from the other mesh, and in
-// the end triangles against triangles. Boxes and cylinders are taken as meshes, cylinders with 64 sides about them (at most 0.12 % of
-// the radius too near); spheres and half-spaces by their formulas.
+// Meshes against meshes by branch and bound over trees of both (mesh_pair.h). Boxes and cylinders are taken as meshes, cylinders with 64
+// sides about them (at most 0.12 % of the radius too near); spheres and half-spaces by their formulas.
 #pragma once
 
 #include <limits>
 #include <memory>
 #include <vector>
 
+#include "method/dress_pack/mesh_pair.h"
 #include "method/dress_pack/pack_bodies.h"
 
 namespace tendril::dress_pack {
@@ -28,7 +28,7 @@ class RobotGaps {
   struct Known {
     Eigen::Matrix<double, 3, 8> corners;   ///< of the link body's box, in the fixed body's axes, where
     double distance = -std::numeric_limits<double>::infinity();  ///< the gap was no smaller, m
-    int triangle = -1, other_triangle = -1;                      ///< that were nearest: where the next search begins
+    TriangleNumbers triangles;                                   ///< that were nearest: where the next search begins
   };
   using Memory = std::vector<Known>;
 

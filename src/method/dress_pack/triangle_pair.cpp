@@ -42,7 +42,7 @@ bool pierces(const Vec3& from, const Vec3& to, const Vec3 (&face)[3], Vec3& at) 
 }  // namespace
 
 TrianglePair closest_of_triangles(const Vec3 (&a)[3], const Vec3 (&b)[3]) {
-  TrianglePair best{std::numeric_limits<double>::infinity(), {}, {}};
+  TrianglePair best{std::numeric_limits<double>::infinity(), Vec3::Zero(), Vec3::Zero()};
   Vec3 at;
   for (int k = 0; k < 3; ++k)
     if (pierces(a[k], a[(k + 1) % 3], b, at) || pierces(b[k], b[(k + 1) % 3], a, at)) return {0, at, at};
