@@ -73,17 +73,33 @@ RobotGaps::RobotGaps(const PackBodies& bodies) : bodies_(bodies) {
 
 namespace {
 
-/// The corner of one mesh that lies deepest inside the body `other`.
-bool deepest_corner(const PackBodies& bodies, const Mesh& mesh, const BodyPose& at, int other, const BodyPose& at_other, Vec3& corner,
-                    BodyDistance& deepest) {
+/// The place, of some in the world, that lies deepest inside a body.
+bool deepest_of(const std::vector<Vec3>& places, const PackBodies& bodies, int body, const BodyPose& at, Vec3& place, BodyDistance& deepest) {
   deepest = {};
-  for (const Vec3& v : mesh.vertices) {
-    const BodyDistance found = bodies.distance(other, at_other.to_body(at.to_world(v)), 0);
+  for (const Vec3& p : places) {
+    const BodyDistance found = bodies.distance(body, at.to_body(p), 0);
     if (!(found.distance < deepest.distance)) continue;
     deepest = found;
-    corner = at.to_world(v);
+    place = p;
   }
   return deepest.found;
+}
+
+std::vector<Vec3> corners_of(const Mesh& mesh, const BodyPose& at) {
+  std::vector<Vec3> corners;
+  corners.reserve(mesh.vertices.size());
+  for (const Vec3& v : mesh.vertices) corners.push_back(at.to_world(v));
+  return corners;
+}
+
+/// Those within the ball about a body's box, and some beyond it.
+std::vector<Vec3> corners_near(const TriangleSurface& surface, const BodyPose& at, const Eigen::AlignedBox3d& box, const BodyPose& at_box) {
+  std::vector<Vec3> corners;
+  const double radius = 0.5 * box.diagonal().norm() * (1 + 1e-9);
+  surface.tree().visit_near(at.to_body(at_box.to_world(box.center())), radius, [&](int triangle) {
+    for (const int v : surface.mesh().triangles[triangle]) corners.push_back(at.to_world(surface.mesh().vertices[v]));
+  });
+  return corners;
 }
 
 }  // namespace
@@ -121,9 +137,10 @@ LinkGap RobotGaps::measure(const Pair& pair, const std::vector<BodyPose>& poses,
     Vec3 corner;
     BodyDistance deepest;
     LinkGap best{0, pair.body, pair.other, at_b.to_world(found.nearest.on_a), at_b.to_world(found.nearest.on_b)};
-    if (deepest_corner(bodies_, a.surface->mesh(), at_a, pair.other, at_b, corner, deepest))
+    if (deepest_of(corners_of(a.surface->mesh(), at_a), bodies_, pair.other, at_b, corner, deepest))
       best = {deepest.distance, pair.body, pair.other, corner, at_b.to_world(deepest.point)};
-    if (deepest_corner(bodies_, b.surface->mesh(), at_b, pair.body, at_a, corner, deepest) && deepest.distance < best.gap)
+    const std::vector<Vec3> corners = corners_near(*b.surface, at_b, bodies_.own_box(pair.body), at_a);
+    if (deepest_of(corners, bodies_, pair.body, at_a, corner, deepest) && deepest.distance < best.gap)
       best = {deepest.distance, pair.body, pair.other, at_a.to_world(deepest.point), corner};
     return best;
   }

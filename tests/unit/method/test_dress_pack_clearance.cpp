@@ -37,6 +37,20 @@ Mesh random_soup(int count, double reach, double size, Random& random) {
   return mesh;
 }
 
+/// Two cones on a polygon of `sides` corners, closed.
+Mesh bipyramid(double radius, double height, int sides) {
+  Mesh mesh;
+  mesh.vertices = {{0, 0, -height}, {0, 0, height}};
+  for (int k = 0; k < sides; ++k) {
+    const double angle = 2 * units::pi * k / sides;
+    mesh.vertices.push_back({radius * std::cos(angle), radius * std::sin(angle), 0});
+    const int here = 2 + k, next = 2 + (k + 1) % sides;
+    mesh.triangles.push_back({0, next, here});
+    mesh.triangles.push_back({1, here, next});
+  }
+  return mesh;
+}
+
 /// A ball in the way of the hose's middle on the best path without it.
 PackProblem blocked_pack(const JointPath& path, const ReducedOptions& options) {
   PackProblem pack = six_axis_pack(12);
@@ -149,6 +163,39 @@ TEST_CASE("gaps of links: boxes, cylinders, and how deep they overlap", "[dress_
   CHECK(smallest().gap == Approx(0.35).margin(1e-4));
   pack.bodies[0].link = 0;  // the base does not move
   CHECK(smallest().body == -1);
+}
+
+TEST_CASE("gaps of links: closed meshes that overlap, by the deepest of all corners", "[dress_pack]") {
+  Random random(34);
+  PackProblem pack = six_axis_pack(8);
+  int deep[2] = {0, 0};
+  for (int round = 0; round < 200; ++round) {
+    INFO("round " << round);
+    const auto hand = std::make_shared<const TriangleSurface>(bipyramid(random.in(0.05, 0.3), random.in(0.1, 0.6), 12));
+    const auto cell = std::make_shared<const TriangleSurface>(bipyramid(random.in(0.1, 0.3), random.in(0.1, 0.3), 40));
+    const JointVector q = random_values(6, 0.5, random);
+    const Frame link = pack.robot->link_frame(6, {q.data(), 6});
+    pack.bodies = {{{hand, {random.point(0.1), random.rotation()}, 0, "hand"}, 6},
+                   {{cell, {link.at + random.point(0.4), random.rotation()}, 0, "cell"}}};
+    const PackBodies bodies(pack, Sides::of_meshes_too);
+    std::vector<BodyPose> at;
+    bodies.poses(q, at);
+    double depth[2] = {0, 0};  // of the hand's corners in the cell, and the other way
+    for (int b = 0; b < 2; ++b)
+      for (const Vec3& v : (b == 0 ? hand : cell)->mesh().vertices)
+        depth[b] = std::min(depth[b], bodies.distance(1 - b, at[1 - b].to_body(at[b].to_world(v)), 0).distance);
+    RobotGaps::Memory memory;
+    const LinkGap gap = RobotGaps(bodies).smallest(q, 1, memory);
+    if (depth[0] == 0 && depth[1] == 0) {
+      CHECK(gap.gap >= 0);
+      continue;
+    }
+    for (int b = 0; b < 2; ++b) deep[b] += depth[b] <= depth[1 - b];
+    CHECK(gap.gap == Approx(std::min(depth[0], depth[1])).epsilon(0).margin(1e-12));
+    CHECK((gap.on_link - gap.on_other).norm() == Approx(-gap.gap).margin(1e-12));
+  }
+  CHECK(deep[0] > 5);
+  CHECK(deep[1] > 5);
 }
 
 TEST_CASE("clearance rows: gradients against finite differences of equilibria", "[dress_pack]") {
