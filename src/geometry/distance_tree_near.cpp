@@ -16,6 +16,9 @@ Float8 positive(Float8 x) { return simd::larger(x, simd::all(0)); }
 // The box in single precision about the mesh's middle, and the direction as a fourth axis without a length.
 struct DistanceTree::Probe {
   float middle[3], axes[4][3], half[3], along;  // `along`: half the box's length in the direction
+
+  /// Half its length along a unit vector that has these parts along its axes.
+  float reach(float x, float y, float z) const { return std::abs(x) * half[0] + std::abs(y) * half[1] + std::abs(z) * half[2]; }
 };
 
 // Boxes are apart by the length of the gaps along the axes of either one, and by the gap along any direction.
@@ -28,7 +31,7 @@ DistanceTree::Float8 DistanceTree::part_gaps(const Node& node, const Probe& prob
     const Float8 low = load(node.low[k]), high = load(node.high[k]);
     to[k] = simd::all(middle.at[k]) - simd::all(0.5f) * (low + high);
     half[k] = simd::all(0.5f) * (high - low);
-    const float reach = std::abs(axes[0].at[k]) * probe.half[0] + std::abs(axes[1].at[k]) * probe.half[1] + std::abs(axes[2].at[k]) * probe.half[2];
+    const float reach = probe.reach(axes[0].at[k], axes[1].at[k], axes[2].at[k]);
     const Float8 gap = positive(absolute(to[k]) - half[k] - simd::all(reach));
     own += gap * gap;
   }
@@ -50,8 +53,9 @@ DistanceTree::Float8 DistanceTree::leaf_gaps(const Leaf& leaf, const Probe& prob
   for (int k = 0; k < 3; ++k) {
     to[k] = simd::all(probe.middle[k]) - load(leaf.corner[k]);
     const Float8 side = load(leaf.side[k]), second = load(leaf.other[k]), zero = simd::all(0);
-    const float reach = std::abs(probe.axes[0][k]) * probe.half[0] + std::abs(probe.axes[1][k]) * probe.half[1] + std::abs(probe.axes[2][k]) * probe.half[2];
-    const Float8 above = to[k] - simd::larger(simd::larger(side, second), zero), below = simd::smaller(simd::smaller(side, second), zero) - to[k];
+    const float reach = probe.reach(probe.axes[0][k], probe.axes[1][k], probe.axes[2][k]);
+    const Float8 above = to[k] - simd::larger(simd::larger(side, second), zero);
+    const Float8 below = simd::smaller(simd::smaller(side, second), zero) - to[k];
     const Float8 gap = positive(simd::larger(above, below) - simd::all(reach));
     own += gap * gap;
   }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/Eigenvalues>
+
 namespace tendril::dress_pack {
 
 using OrientedBox = DistanceTree::OrientedBox;
@@ -46,11 +48,29 @@ BoxTree::BoxTree(const Mesh& mesh) : mesh_(mesh), order_(mesh.triangles.size()) 
   }
 }
 
+/// Along the mesh's axes or the principal ones of the corners, whichever is smaller.
 OrientedBox BoxTree::box_of(int first, int count) const {
   Eigen::AlignedBox3d box;
   for (int i = first; i < first + count; ++i)
     for (const int v : mesh_.triangles[order_[i]]) box.extend(mesh_.vertices[v]);
-  return {box.center(), Mat3::Identity(), 0.5 * box.sizes()};
+  const OrientedBox plain{box.center(), Mat3::Identity(), 0.5 * box.sizes()};
+  Vec3 sum = Vec3::Zero();
+  Mat3 products = Mat3::Zero();
+  for (int i = first; i < first + count; ++i)
+    for (const int v : mesh_.triangles[order_[i]]) {
+      const Vec3 p = mesh_.vertices[v] - plain.middle;
+      sum += p;
+      products += p * p.transpose();
+    }
+  Eigen::SelfAdjointEigenSolver<Mat3> principal;
+  principal.computeDirect(products - sum * sum.transpose() / (3.0 * count));
+  const Mat3 axes = principal.eigenvectors();
+  if (!((axes.transpose() * axes - Mat3::Identity()).norm() < 1e-9)) return plain;
+  Eigen::AlignedBox3d turned;
+  for (int i = first; i < first + count; ++i)
+    for (const int v : mesh_.triangles[order_[i]]) turned.extend(Vec3(axes.transpose() * mesh_.vertices[v]));
+  if (!(turned.sizes().norm() < plain.half.norm() * 2)) return plain;
+  return {axes * turned.center(), axes, 0.5 * turned.sizes()};
 }
 
 /// Along the longest side; about the axes of the mesh where a triangle has no face.
