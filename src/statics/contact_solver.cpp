@@ -16,6 +16,8 @@ constexpr double soft_tolerance = 2e-2;
 constexpr double hard_step = 0.02, loose_step = 2e-3;  // radii: what may be left of a step before the first update, later
 constexpr double slow = 0.4, hardening = 4;          // an overlap that falls less than this makes the law so much stiffer
 constexpr double one_more = 3;                       // times the overlap aimed at: one update takes that away
+constexpr double fitted_softness = 0.04;             // overlap under the forces that a motion comes with, in radii
+constexpr double least_fitted = 1e-3;                // share of the reference force that the law is fitted to at least
 constexpr int warm_iterations = 16;                  // a warm start that is worth it needs fewer
 constexpr int soft_iterations = 40, hard_iterations = 80, update_iterations = 60, descent_iterations = 300;
 
@@ -23,6 +25,25 @@ std::string text(const char* format, double a) {
   char buffer[200];
   std::snprintf(buffer, sizeof buffer, format, a);
   return buffer;
+}
+
+/// Along a motion the forces are known nearly. Under a law that is far too hard for them contact opens as soon as a start is a
+/// thousandth of a radius off, and Newton's method flies from one side of the surface to the other; under one that gives way
+/// by some hundredths of a radius it stays closed. Returns whether any rod touches.
+bool fit_to_forces(ContactNetwork& terms, const SystemEquilibrium& from) {
+  bool any = false;
+  for (const ContactNetwork::Rod& rod : terms.rods()) {
+    double force = 0, length = 0;
+    for (const ContactForce& contact : from.rods[rod.index].contacts) {
+      force += contact.force.norm();
+      length += contact.length;
+    }
+    if (!(force > 0 && length > 0)) continue;
+    const double fitted = std::max(force / length, least_fitted * rod.reference);
+    rod.terms->set().law = ContactLaw::for_overlap(fitted, rod.radius, fitted_softness);
+    any = true;
+  }
+  return any;
 }
 
 }  // namespace
@@ -156,9 +177,19 @@ ContactOutcome ContactSolver::attempt(RodState& state, const SystemEquilibrium* 
   terms_.set_softness(hardness);
   if (const auto crossing = terms_.first_crossing(state)) out.message = "the start crosses " + crossing_at(*crossing);
 
-  if (from) {
+  const auto warm = [&] {
     for (const ContactNetwork::Rod& rod : terms_.rods()) rod.terms->take_forces(from->rods[rod.index].contacts);
     out.newton = stage(state, Start::warm, loose(hard_step), warm_iterations, false, context);
+  };
+  if (from) {
+    const bool fitted = options_.follow && fit_to_forces(terms_, *from);
+    warm();
+    if (fitted && out.newton.status != Status::solved && !over(out)) {
+      ++out.fallbacks;
+      state = start;
+      terms_.set_softness(hardness);
+      warm();
+    }
   } else {
     terms_.set_softness(soft);
     terms_.set_early_end(true);

@@ -11,6 +11,8 @@ namespace {
 
 constexpr double largest_move = 0.02;    // of the length, from where a vertex was carried
 constexpr double growth = 1.7;
+constexpr double most_ahead = 2;         // times the last step: no farther is its correction relied on,
+constexpr double most_aside = 0.1;       // nor where the joints turn into another direction by more
 constexpr double clear_radii = 0.3;
 constexpr int trial_iterations = 250;    // of a step that may be halved; the smallest has
 constexpr int last_iterations = 2000;
@@ -90,7 +92,10 @@ void ContactFollower::take(SystemEquilibrium found) {
       if (system_.rods[k].holds[h].slide) system_.rods[k].holds[h].at = here_.rods[k].reactions[h].s;
 }
 
-void ContactFollower::set_here(SystemEquilibrium equilibrium) { take(std::move(equilibrium)); }
+void ContactFollower::set_here(SystemEquilibrium equilibrium) {
+  correction_.clear();
+  take(std::move(equilibrium));
+}
 
 SystemEquilibrium ContactFollower::solve_at(const JointVector& q, const SystemEquilibrium* from, int most_iterations,
                                             const RunContext& context) {
@@ -114,7 +119,7 @@ ContactFollower::Outcome ContactFollower::start(const JointVector& q, const Syst
     out.message = found.rods.front().message;
     return out;
   }
-  take(std::move(found));
+  set_here(std::move(found));
   return out;
 }
 
@@ -129,6 +134,31 @@ SystemEquilibrium ContactFollower::carried(const std::vector<Frame>& before, con
       rod.rotations[i] = there.rotation;
     }
   }
+  return out;
+}
+
+/// What the solver changed of a carried shape it will change again on the way straight on.
+void ContactFollower::learn(const JointVector& way, const SystemEquilibrium& carried, const SystemEquilibrium& found) {
+  last_way_ = way;
+  correction_.clear();
+  for (std::size_t k = 0; k < found.rods.size(); ++k) {
+    const Equilibrium &a = carried.rods[k], &b = found.rods[k];
+    for (std::size_t i = 0; i < b.points.size(); ++i)
+      correction_.push_back({b.points[i] - a.points[i], (a.rotations[i].conjugate() * b.rotations[i]).normalized()});
+  }
+}
+
+std::optional<SystemEquilibrium> ContactFollower::corrected(const JointVector& way, const SystemEquilibrium& carried) const {
+  if (correction_.empty() || pack_.slides()) return std::nullopt;
+  const double share = way.dot(last_way_) / last_way_.squaredNorm();
+  if (!(share > 0 && share <= most_ahead) || (way - share * last_way_).norm() > most_aside * way.norm()) return std::nullopt;
+  SystemEquilibrium out = carried;
+  auto next = correction_.begin();
+  for (Equilibrium& rod : out.rods)
+    for (std::size_t i = 0; i < rod.points.size(); ++i, ++next) {
+      rod.points[i] += share * next->at;
+      rod.rotations[i] = (rod.rotations[i] * exp_rotation(share * log_rotation(next->rotation))).normalized();
+    }
   return out;
 }
 
@@ -180,7 +210,10 @@ ContactFollower::Outcome ContactFollower::advance(const JointVector& from, const
       step = std::max(shortest, std::min(0.9 / haste, 0.9) * made);
       continue;
     }
-    SystemEquilibrium found = solve_at(q, &begin, smallest ? last_iterations : trial_iterations, context);
+    const JointVector here = at(out.reached), made_way = q - here;
+    std::optional<SystemEquilibrium> ahead = corrected(made_way, begin);
+    if (ahead && haste(*ahead, here, q) > 1) ahead.reset();
+    SystemEquilibrium found = solve_at(q, ahead ? &*ahead : &begin, smallest ? last_iterations : trial_iterations, context);
     out.status = found.rods.front().status;
     if (out.status == Status::cancelled || out.status == Status::timeout) {
       out.message = "interrupted";
@@ -203,6 +236,8 @@ ContactFollower::Outcome ContactFollower::advance(const JointVector& from, const
       snap.energy_drop = here_.energy() - found.energy();
       out.snaps.push_back(snap);
     }
+    if (smooth) learn(made_way, begin, found);
+    else correction_.clear();
     take(std::move(found));
     before = after;
     out.reached = next;

@@ -2,11 +2,12 @@
 // in steps so short that no body passes through a rod.
 //
 // Each step starts from the last solution carried along: vertices between two holds move with both, in the proportion of the arc
-// lengths. Where they are near a body they may thereby move by half a radius relative to it; from there on the solver's own guards
-// hold. A step that the solver does not make, or that takes a rod far from where it was carried, is made in two halves; the smallest
-// that does is a snap-through.
+// lengths; and, straight on, from what the solver changed of the shape that was carried in the step before. Where they are near a
+// body they may thereby move by half a radius relative to it; from there on the solver's own guards hold. A step that the solver does
+// not make, or that takes a rod far from where it was carried, is made in two halves; the smallest that does is a snap-through.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "method/dress_pack/pack_follower.h"
@@ -51,6 +52,9 @@ class ContactFollower {
  private:
   SystemEquilibrium carried(const std::vector<Frame>& before, const std::vector<Frame>& after) const;
   SystemEquilibrium solve_at(const JointVector& q, const SystemEquilibrium* from, int most_iterations, const RunContext& context);
+  void learn(const JointVector& way, const SystemEquilibrium& carried, const SystemEquilibrium& found);
+  /// A carried shape with the last step's correction in proportion; nothing where the joints do not move straight on.
+  std::optional<SystemEquilibrium> corrected(const JointVector& way, const SystemEquilibrium& carried) const;
   double haste(const SystemEquilibrium& moved, const JointVector& from, const JointVector& to);
   bool clear(const JointVector& q);
   void take(SystemEquilibrium found);
@@ -64,6 +68,8 @@ class ContactFollower {
   std::unique_ptr<PackGaps> gaps_;
   PackGaps::Memory memory_;
   PackPlaces before_, after_;
+  JointVector last_way_;            ///< of the joints in the last smooth step
+  std::vector<Frame> correction_;   ///< what it changed of the carried shape, by node; empty: not known
   int solutions_ = 0;
   long iterations_ = 0;
 };
