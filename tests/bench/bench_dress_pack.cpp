@@ -88,6 +88,16 @@ void add_box(const Vec3& middle, const Vec3& size, int n, Mesh& mesh) {
   face(middle + half, -x, -y), face(middle + half, -z, -x), face(middle + half, -y, -z);
 }
 
+void add_link(const char* name, PackProblem& pack) {
+  const int link = pack.robot->link(name);
+  for (const LinkShape& shape : pack.robot->links()[link].collision) {
+    PackBody body{{{}, shape.pose, 0, name}, link};
+    if (const auto* mesh = std::get_if<0>(&shape.shape)) body.body.shape = (*mesh)->surface();
+    else body.body.shape = std::get<1>(shape.shape);
+    pack.bodies.push_back(std::move(body));
+  }
+}
+
 /// The pack with its hand's links in a cell of 124,800 triangles: a table, a wall, and two posts whose tops are 10 mm under the hose on
 /// the best path without them. The links do not come near.
 PackProblem in_cell(int which) {
@@ -103,15 +113,7 @@ PackProblem in_cell(int which) {
   add_box({1.2, -1.2, 0.4}, {0.8, 0.8, 0.8}, 60, cell);
   add_box({0.5, 2.2, 1.0}, {2, 0.1, 2.0}, 60, cell);
   pack.bodies = {{{std::make_shared<const TriangleSurface>(std::move(cell)), {}, 0, "cell"}}};
-  for (const char* name : {"link_5", "link_6"}) {
-    const int link = pack.robot->link(name);
-    for (const LinkShape& shape : pack.robot->links()[link].collision) {
-      PackBody body{{{}, shape.pose, 0, name}, link};
-      if (const auto* mesh = std::get_if<0>(&shape.shape)) body.body.shape = (*mesh)->surface();
-      else body.body.shape = std::get<1>(shape.shape);
-      pack.bodies.push_back(std::move(body));
-    }
-  }
+  for (const char* name : {"link_5", "link_6"}) add_link(name, pack);
   return pack;
 }
 
@@ -189,6 +191,40 @@ void simulated(benchmark::State& run) {
   run.counters["solves"] = motion.iterations;
 }
 BENCHMARK(simulated)->ArgNames({"segments", "contact", "path"})->Args({16, 0, easy})->Args({32, 0, easy})->Args({16, 0, problematic})->Args({16, 1, easy})->Unit(benchmark::kMillisecond);
+
+enum Pressed { forearm, links, table };
+
+/// Something that the hose rests on all along the easy path: a round forearm, the meshes of the arm's last links, or a table that is
+/// 60 mm higher than the hose would hang at the start.
+PackProblem pressed_hose(int on) {
+  PackProblem pack = six_axis_hose(16);
+  if (on == forearm) {
+    const Quat along = Quat::FromTwoVectors(Vec3::UnitZ(), Vec3::UnitX());
+    pack.bodies = {{{Cylinder{0.12, 1.0}, {{0.5, 0, 0.1}, along}, 0, "forearm"}, pack.robot->link("link_3")}};
+  } else if (on == links) {
+    for (const char* name : {"link_3", "link_4", "link_5"}) add_link(name, pack);
+  } else {
+    const PackMotion free = simulate(pack, path_of(easy), {1});
+    double low = 1e9;
+    for (const Vec3& r : free.steps.front().state.r) low = std::min(low, r.z());
+    pack.bodies = {{{Box{{8, 8, 0.2}}, {{0, 0, low - 0.015 + 0.06 - 0.1}, Quat::Identity()}, 0, "table"}}};
+  }
+  return pack;
+}
+
+/// Steps that touch, solutions with contact, and factorisations for each.
+void pressed(benchmark::State& run) {
+  const PackProblem pack = pressed_hose(static_cast<int>(run.range(0)));
+  PackMotion motion;
+  for (auto _ : run) motion = simulate(pack, path_of(easy), {200});
+  if (!motion.ok()) run.SkipWithError(motion.message.c_str());
+  run.counters["touching"] = static_cast<double>(std::count_if(motion.steps.begin(), motion.steps.end(), [](const PackStep& step) { return !step.rods[0].contacts.empty(); }));
+  run.counters["solutions"] = motion.contact_solutions;
+  run.counters["passes"] = static_cast<double>(motion.iterations) / motion.contact_solutions;
+  run.counters["snaps"] = static_cast<double>(motion.snaps.size());
+  run.counters["clearance_mm"] = 1e3 * motion.smallest_clearance();
+}
+BENCHMARK(pressed)->ArgName("on")->Arg(forearm)->Arg(links)->Arg(table)->Unit(benchmark::kMillisecond);
 
 /// The objective of one path against the time steps that judge it.
 void judged(benchmark::State& run) {
