@@ -77,12 +77,17 @@ Pushed motion_envelope(lua_State* L, EnvelopeBuilder& builder, const SceneMotion
   if (motion.equilibria.empty()) throw UsageError("motion:envelope: the motion has no equilibria");
   const RunContext context = envelope_context(L, o);
   const EnvelopeOptions options = envelope_options(o);
-  EnvelopeCollector collector(*motion.equilibria.front(), options.voxel,
-                              options.share < 1 ? EnvelopeOutcomes::Keep::all : EnvelopeOutcomes::Keep::hull);
   EnvelopeReport report;
-  for (const auto& equilibrium : motion.equilibria) report.made.status = collector.add(*equilibrium, context);
-  report.made.status = collector.finish(context);
-  if (report.made.status == Status::solved) builder.build(collector.outcomes(), options, context, report.made);
+  if (options.share < 1) {
+    EnvelopeCollector collector(*motion.equilibria.front(), options.voxel, EnvelopeOutcomes::Keep::all);
+    for (const auto& equilibrium : motion.equilibria) report.made.status = collector.add(*equilibrium, context);
+    report.made.status = collector.finish(context);
+    if (report.made.status == Status::solved) builder.build(collector.outcomes(), options, context, report.made);
+  } else {
+    const EnvelopeOutcomes swept = swept_space(motion.equilibria, options.voxel, context, report.made.status);
+    if (report.made.status == Status::solved) builder.build(swept, options, context, report.made);
+    if (report.made.status == Status::solved) report.made.outcomes = static_cast<int>(motion.equilibria.size());
+  }
   return push_envelope(L, std::move(report));
 }
 

@@ -1,5 +1,7 @@
 #include "method/envelope/collector.h"
 
+#include <algorithm>
+
 namespace tendril {
 namespace {
 
@@ -55,6 +57,23 @@ Status EnvelopeCollector::finish(const RunContext& context) {
   for (std::vector<double>& frames : waiting_) frames.clear();
   count_ = 0;
   return status;
+}
+
+EnvelopeOutcomes swept_space(std::span<const std::shared_ptr<SceneEquilibrium>> states, double voxel, const RunContext& context, Status& status) {
+  const std::size_t ways = std::max<std::size_t>(1, states.size() - 1), rods = states.front()->rods.size();
+  std::vector<EnvelopeRod> pieces;
+  std::vector<std::vector<double>> frames;  // by state and rod
+  for (const auto& state : states)
+    for (const SolvedRod& rod : state->rods) frames.push_back(frames_of(rod));
+  for (std::size_t way = 0; way < ways; ++way)
+    for (EnvelopeRod& rod : rods_of(*states[way], voxel)) pieces.push_back(std::move(rod));
+  EnvelopeOutcomes outcomes(std::move(pieces));
+  // Two outcomes: where each way begins, and where it ends.
+  status = outcomes.add_frames(2, [&](int outcome, int piece) {
+    const std::size_t way = piece / rods, state = std::min(way + outcome, states.size() - 1);
+    return std::span<const double>(frames[state * rods + piece % rods]);
+  }, context);
+  return outcomes;
 }
 
 }  // namespace tendril

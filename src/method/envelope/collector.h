@@ -30,4 +30,8 @@ class EnvelopeCollector {
   int count_ = 0;
 };
 
+/// The space that rods sweep from state to state, straight between neighbouring ones: each of these ways has pieces of its own, so
+/// that what lies between two ways is not filled. At least one state; all of the same rods on the same meshes.
+EnvelopeOutcomes swept_space(std::span<const std::shared_ptr<SceneEquilibrium>> states, double voxel, const RunContext& context, Status& status);
+
 }  // namespace tendril
