@@ -27,10 +27,8 @@ std::string text(const char* format, double a) {
   return buffer;
 }
 
-/// Along a motion the forces are known nearly. Under a law that is far too hard for them contact opens as soon as a start is a
-/// thousandth of a radius off, and Newton's method flies from one side of the surface to the other; under one that gives way
-/// by some hundredths of a radius it stays closed. Returns whether any rod touches.
-bool fit_to_forces(ContactNetwork& terms, const SystemEquilibrium& from) {
+/// False: nothing touches.
+bool fit_laws(ContactNetwork& terms, const SystemEquilibrium& from) {
   bool any = false;
   for (const ContactNetwork::Rod& rod : terms.rods()) {
     double force = 0, length = 0;
@@ -182,7 +180,7 @@ ContactOutcome ContactSolver::attempt(RodState& state, const SystemEquilibrium* 
     out.newton = stage(state, Start::warm, loose(hard_step), warm_iterations, false, context);
   };
   if (from) {
-    const bool fitted = options_.follow && fit_to_forces(terms_, *from);
+    const bool fitted = fitted_ && fit_laws(terms_, *from);
     warm();
     if (fitted && out.newton.status != Status::solved && !over(out)) {
       ++out.fallbacks;

@@ -35,6 +35,11 @@ class ContactSolver {
   /// At least one rod of `network` must have surroundings.
   ContactSolver(RodNetwork& network, const SolveOptions& options, const ContactOptions& contact = {});
 
+  /// For motions in small steps, whose forces are known nearly: the law of a warm start gives way by some hundredths of a radius
+  /// under them. Under one far too hard for them contact opens as soon as a start is a thousandth of a radius off, and Newton's
+  /// method flies from one side of the surface to the other.
+  void fit_to_forces() { fitted_ = true; }
+
   /// Where a cold start begins: the first guess, changed where it would cross the surroundings (contact_start.h).
   RodState clear_start() { return tendril::clear_start(*network_, terms_).state; }
 
@@ -82,6 +87,7 @@ class ContactSolver {
   ContactNetwork terms_;
   Newton newton_;
   int used_ = 0;       ///< factorisations so far
+  bool fitted_ = false;
   bool another_try_ = false;  ///< then warm runs meet an indefinite matrix by a shift, not by leaving out the wrench
   BlockSystem scratch_;
 };

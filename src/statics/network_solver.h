@@ -18,6 +18,11 @@ class NetworkSolver {
 
   SystemEquilibrium solve(const RunContext& context, const SystemEquilibrium* from = nullptr);
 
+  /// See ContactSolver.
+  void fit_contact_to_forces() {
+    if (contact_) contact_->fit_to_forces();
+  }
+
   /// Newton alone, from a state to a state: the inner loop of everything that solves often.
   NewtonOutcome iterate(RodState& state, bool warm, const RunContext& context);
 

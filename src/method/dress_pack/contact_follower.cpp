@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/number_text.h"
+#include "statics/network_solver.h"
 #include "statics/solve.h"
 
 namespace tendril::dress_pack {
@@ -52,6 +53,14 @@ Frame moved(const Frame& frame, double s, const std::vector<HeldMove>& held) {
   const double share = b.s > a.s ? std::clamp((s - a.s) / (b.s - a.s), 0.0, 1.0) : 1.0;
   const Quat turn = a.move.turn.slerp(share, b.move.turn);
   return {(1 - share) * a.move.at(frame.at) + share * b.move.at(frame.at), (turn * frame.rotation).normalized()};
+}
+
+SystemEquilibrium solve_fitted(const SystemProblem& system, const SolveOptions& options, const RunContext& context,
+                               const SystemEquilibrium* from) {
+  system.check();
+  NetworkSolver solver(system, options);
+  solver.fit_contact_to_forces();
+  return solver.solve(context, from);
 }
 
 PackFollower::Snap farthest(const SystemEquilibrium& a, const SystemEquilibrium& b, double& share) {
@@ -106,7 +115,7 @@ SystemEquilibrium ContactFollower::solve_at(const JointVector& q, const SystemEq
   options.max_iterations = most_iterations;
   options.follow = from != nullptr;
   ++solutions_;
-  SystemEquilibrium found = solve(system_, options, context, from);
+  SystemEquilibrium found = pack_.slides() ? solve(system_, options, context, from) : solve_fitted(system_, options, context, from);
   iterations_ += found.rods.front().iterations;
   return found;
 }

@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "method/dress_pack/pack_gaps.h"
 #include "method/dress_pack/pack_simulation.h"
+#include "robot/load_robot.h"
 #include "unit/method/dress_pack_cases.h"
 
 using namespace tendril;
@@ -159,6 +160,29 @@ TEST_CASE("contact of a pack: a hose pressed against the forearm balances", "[dr
     }
   }
   CHECK(pressed > 3);
+}
+
+TEST_CASE("contact of a pack: a hose that rests lightly is followed in few passes", "[dress_pack]") {
+  // 0.1 to 1 N at a hose that sways easily: contact must neither open nor be driven deep in on the way from step to step.
+  PackProblem pack;
+  pack.robot = load_robot("builtin:six_axis");
+  pack.rods = {hose(1.6, 16)};
+  pack.attachments = {{0, 0, pack.robot->link("link_2"), Frame::looking({0.05, 0.2, 0.75}, {1, 0, 1}, {0, 0, 1})},
+                      {0, 1, pack.robot->link("link_6"), Frame::looking({0.05, 0, 0.15}, {1, 0, 0}, {0, 0, 1})}};
+  const Quat along = Quat::FromTwoVectors(Vec3::UnitZ(), Vec3::UnitX());
+  pack.bodies = {{{Cylinder{0.12, 1.0}, {{0.5, 0, 0.1}, along}, 0, "forearm"}, pack.robot->link("link_3")}};
+  const double weight = pack.rods[0].rod.mass() * 9.81;
+  const PackMotion motion = simulate(pack, JointPath({degrees({0, 0, 0, 0, 0, 0}), degrees({15, 2.5, -10, 10, 5, 5})}), {100});
+  INFO(motion.message);
+  REQUIRE(motion.ok());
+  CHECK(motion.snaps.empty());
+  CHECK(motion.contact_solutions > 90);
+  CHECK(motion.iterations < 12 * motion.contact_solutions);
+  for (const PackStep& step : motion.steps) {
+    CAPTURE(step.t);
+    CHECK(step.rods[0].clearance > -1e-3 * 0.015);
+    CHECK((loads(pack, step).first - Vec3(0, 0, weight)).norm() < 1e-3 * weight);
+  }
 }
 
 TEST_CASE("contact of a pack: turned about gravity it is the same", "[dress_pack]") {
