@@ -226,7 +226,7 @@ void pressed(benchmark::State& run) {
 }
 BENCHMARK(pressed)->ArgName("on")->Arg(forearm)->Arg(links)->Arg(table)->Unit(benchmark::kMillisecond);
 
-/// The objective of one path against the time steps that judge it.
+/// Error against run time: the objective of one path and the largest force of a hold, against the time steps and elements that judge it.
 void judged(benchmark::State& run) {
   const PackProblem pack = six_axis_hose(static_cast<int>(run.range(0)));
   const ReducedOptions options = options_of(static_cast<int>(run.range(1)));
@@ -237,7 +237,9 @@ void judged(benchmark::State& run) {
     objective = problem.objective();
   }
   run.counters["f"] = objective;
+  run.counters["N"] = simulate(pack, path_of(taut), {options.steps}).largest_end_force();
 }
-BENCHMARK(judged)->ArgNames({"segments", "steps"})->Args({16, 20})->Args({16, 40})->Args({16, 80})->Args({16, 200})->Args({32, 200})->Args({64, 200})->Unit(benchmark::kMillisecond);
+BENCHMARK(judged)->ArgNames({"segments", "steps"})->Args({16, 20})->Args({16, 40})->Args({16, 80})->Args({16, 200})->Args({16, 800})
+    ->Args({32, 40})->Args({32, 200})->Args({64, 40})->Args({64, 200})->Args({128, 800})->Unit(benchmark::kMillisecond);
 
 }  // namespace

@@ -1,6 +1,7 @@
 // From a scene's rods to the outcomes of an envelope: block by block, as they come.
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
