@@ -17,8 +17,8 @@ constexpr double largest_radius = 0.3, smallest_radius = 1e-5;  // rad
 constexpr double reach = 1.5;              // m of motion for a radian: gaps within a step's reach count
 constexpr double least_margin = 0.01;      // m
 constexpr int most_corrections = 2;
-constexpr int idle_steps = 3;              // that gain less than the tolerance
-constexpr double idle_gain = 1e-4;         // of the objective
+constexpr int idle_steps = 2;              // that gain less than the tolerance
+constexpr double idle_gain = 1e-3;         // of the objective
 
 LinearLimits joined(const LinearLimits& a, const LinearLimits& b, const Eigen::VectorXd& shift) {
   LinearLimits out;
