@@ -49,6 +49,7 @@ class Method {
   PackMotion simulated(const JointPath& path) {
     SimulationOptions simulation;
     simulation.steps = options_.checked_steps;
+    simulation.robot_clearance = options_.limits.robot_clearance >= 0;
     return simulate(pack_, path, simulation, context_);
   }
 

@@ -81,6 +81,8 @@ std::vector<Watched> watched_by(const PackProblem& pack, const Limits& limits) {
       all.push_back({What::bend_radius, name, limits.min_bend_radius, true, [k](const PackStep& step) { return step.rods[k].bend_radius; }});
     if (limits.clearance >= 0) all.push_back({What::clearance, name, limits.clearance, true, [k](const PackStep& step) { return step.rods[k].clearance; }});
   }
+  if (limits.robot_clearance >= 0)
+    all.push_back({What::robot_clearance, pack.robot->name(), limits.robot_clearance, true, [](const PackStep& step) { return step.robot.clearance; }});
   return all;
 }
 

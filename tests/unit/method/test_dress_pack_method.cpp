@@ -164,6 +164,34 @@ TEST_CASE("dress pack: without optimisation the given path is judged, no more", 
   CHECK(found.unmet.size() == found.unmet_before.size());
 }
 
+TEST_CASE("dress pack: a robot too near a fixed body is said, without optimisation as well", "[dress_pack]") {
+  PackProblem pack = upper_arm_pack();
+  Options options;
+  options.optimise = false;
+  options.checked_steps = 10;
+  options.limits.robot_clearance = 0.05;
+  // A ball that moves with the hand, and one 20 mm beside where it is at the start.
+  const int hand = pack.robot->link("link_6");
+  const JointPath path({degrees({0, 0, 0, 0, 0, 0}), degrees({-40, 0, 0, 0, 0, 0})});
+  const JointVector start = path.at(0);
+  const Frame at = pack.robot->link_frame(hand, {start.data(), 6});
+  Mesh skin;
+  skin.vertices = {{0.1, 0, 0}, {-0.1, 0, 0}, {0, 0.1, 0}, {0, -0.1, 0}, {0, 0, 0.1}, {0, 0, -0.1}};
+  skin.triangles = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
+  const auto body = std::make_shared<const TriangleSurface>(skin);
+  pack.bodies = {{{body, {at.at + Vec3(0, 0.22, 0), at.rotation}, 0, "beside"}}, {{body, {}, 0, "hand"}, hand}};
+  const Result near = run(pack, path, options);
+  REQUIRE(near.before.ok());
+  REQUIRE(near.unmet.size() == 1);
+  CHECK(near.unmet[0].what == Unmet::What::robot_clearance);
+  CHECK(near.unmet[0].at_end);
+  CHECK(near.unmet[0].value == Approx(near.before.steps[0].robot.clearance));
+  CHECK(near.unmet[0].value == Approx(0.02).margin(1e-9));
+  CHECK_THAT(near.message, Contains("a clearance of the robot of 20 mm at t = 0, an end of the path, 50 mm asked for"));
+  options.limits.robot_clearance = 0.015;
+  CHECK(run(pack, path, options).unmet.empty());
+}
+
 TEST_CASE("dress pack: what cannot be is refused, with the reason", "[dress_pack]") {
   const PackProblem pack = planar_pack(8);
   const Result beyond = run(pack, JointPath({degrees({0, 60}), degrees({0, 200})}));
