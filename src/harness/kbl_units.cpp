@@ -64,11 +64,19 @@ std::string plain(std::string_view text) {
 double KblUnits::value(XmlFile::Node owner, const char* name, Quantity quantity) const {
   const XmlFile::Node value = owner.child(name);
   if (!value) return 0;
-  return file_.number(value, XmlFile::text(value, "Value_component")) * factor(value, quantity);
+  const XmlFile::Node unit = file_.referenced(value, XmlFile::text(value, "Unit_component"), "Unit");
+  const double in_si = factor(unit, quantity);
+  if (in_si == 0)
+    file_.fail(value, "<" + std::string(name) + ">: its unit '" + unit.attribute("id").value() + "' is not that of " + name_of(quantity));
+  return file_.number(value, XmlFile::text(value, "Value_component")) * in_si;
 }
 
-double KblUnits::factor(XmlFile::Node value, Quantity quantity) const {
-  const XmlFile::Node unit = file_.referenced(value, XmlFile::text(value, "Unit_component"), "Unit");
+bool KblUnits::fits(XmlFile::Node owner, const char* name, Quantity quantity) const {
+  const XmlFile::Node value = owner.child(name);
+  return !value || factor(file_.referenced(value, XmlFile::text(value, "Unit_component"), "Unit"), quantity) != 0;
+}
+
+double KblUnits::factor(XmlFile::Node unit, Quantity quantity) const {
   const std::string si = plain(XmlFile::text(unit, "Si_unit_name")), prefix = plain(XmlFile::text(unit, "Si_prefix"));
   const std::string dimension = plain(XmlFile::text(unit, "Si_dimension")), own = plain(XmlFile::text(unit, "Unit_name"));
   if (si == "metre" || si == "meter") {
@@ -78,9 +86,7 @@ double KblUnits::factor(XmlFile::Node value, Quantity quantity) const {
     if (quantity == Quantity::area && dimension == "square") return scale->factor * scale->factor;
   }
   const auto known = std::find_if(named.begin(), named.end(), [&](const Known& k) { return k.name == own; });
-  if (known != named.end() && known->quantity == quantity) return known->in_si;
-  const std::string got = !own.empty() ? own : (prefix.empty() ? "" : prefix + " ") + si + (dimension.empty() ? "" : " " + dimension);
-  file_.fail(value, "<" + std::string(value.name()) + ">: its unit is '" + got + "', expected " + name_of(quantity));
+  return known != named.end() && known->quantity == quantity ? known->in_si : 0;
 }
 
 }  // namespace tendril

@@ -17,8 +17,12 @@ class KblUnits {
   /// missing or measures something else.
   double value(XmlFile::Node owner, const char* name, Quantity quantity) const;
 
+  /// False where there is such a child and its unit measures something else.
+  bool fits(XmlFile::Node owner, const char* name, Quantity quantity) const;
+
  private:
-  double factor(XmlFile::Node value, Quantity quantity) const;
+  /// SI units in one unit; 0: it measures something else.
+  double factor(XmlFile::Node unit, Quantity quantity) const;
 
   const XmlFile& file_;
 };

@@ -1,6 +1,7 @@
 // KBL 2.3 to 2.5: the harness list of the German car makers (VDA 4964). References go by id; points are in millimetres.
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <unordered_map>
 
 #include "base/error.h"
@@ -29,8 +30,9 @@ class KblReader {
   void read_segment(Node node);
   HarnessCurve curve(Node node) const;
   HarnessFixing fixing(Node assignment) const;
-  HarnessProtection protection(Node area) const;
+  HarnessProtection protection(Node area);
   double share(Node owner, const char* name, double otherwise) const;
+  double mass(Node part);
   int node_number(Node segment, const char* name) const;
   void read_wire(Node occurrence);
   void read_cores(Node part, HarnessWire& wire) const;
@@ -41,6 +43,7 @@ class KblReader {
   KblUnits units_;
   HarnessFile found_;
   std::unordered_map<std::string_view, int> nodes_, segments_, wires_;  ///< by id; of cores: their cable
+  std::set<Node> without_mass_;
   int not_routed_ = 0;
 };
 
@@ -125,7 +128,17 @@ HarnessFixing KblReader::fixing(Node assignment) const {
   return made;
 }
 
-HarnessProtection KblReader::protection(Node area) const {
+/// kg per m; 0 where the part's mass is not stated, or that of a piece of unknown length.
+double KblReader::mass(Node part) {
+  if (units_.fits(part, "Mass_information", Quantity::mass_per_length))
+    return units_.value(part, "Mass_information", Quantity::mass_per_length);
+  if (without_mass_.insert(part).second)
+    found_.skipped.push_back("line " + std::to_string(file_.line(part)) + ": the mass of '" + std::string(XmlFile::text(part, "Part_number")) +
+                             "' is not given per length");
+  return 0;
+}
+
+HarnessProtection KblReader::protection(Node area) {
   const Node occurrence = file_.by_id(XmlFile::text(area, "Associated_protection"));
   const Node part = file_.by_id(XmlFile::text(occurrence, "Part"));
   HarnessProtection made;
@@ -134,7 +147,7 @@ HarnessProtection KblReader::protection(Node area) const {
   made.kind = XmlFile::text(part, "Protection_type");
   made.from = share(area, "Start_location", 0);
   made.to = std::max(made.from, share(area, "End_location", 1));
-  made.mass = units_.value(part, "Mass_information", Quantity::mass_per_length);
+  made.mass = mass(part);
   return made;
 }
 
@@ -184,7 +197,7 @@ void KblReader::read_wire(Node occurrence) {
   made.type = XmlFile::text(part, "Wire_type");
   made.outer = units_.value(part, "Outside_diameter", Quantity::length);
   made.conductor_area = units_.value(part, "Cross_section_area", Quantity::area);
-  made.mass = units_.value(part, "Mass_information", Quantity::mass_per_length);
+  made.mass = mass(part);
   made.min_bend_radius = units_.value(part, "Bend_radius", Quantity::length);
   made.stated_length = units_.value(occurrence.child("Length_information"), "Length_value", Quantity::length);
   if (part.child("Core")) read_cores(part, made);

@@ -1,0 +1,109 @@
+#include "harness/centre_line.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/number_text.h"
+
+namespace tendril {
+namespace {
+
+constexpr double most_gap = 0.5e-3, most_length_off = 0.5e-3, most_relative_off = 2e-3;
+
+HarnessCurve straight(const Vec3& from, const Vec3& to) { return {1, {from, to}, {}, {}}; }
+
+bool all_have_knots(const HarnessSegment& segment) {
+  return std::all_of(segment.curves.begin(), segment.curves.end(), [](const HarnessCurve& c) { return !c.knots.empty(); });
+}
+
+}  // namespace
+
+CentreLine::CentreLine(const HarnessFile& file, const HarnessSegment& segment, KnotReading reading) : reading_(reading) {
+  const Vec3 from = file.nodes[segment.start].at, to = file.nodes[segment.finish].at;
+  const std::vector<HarnessCurve> drawn = segment.curves.empty() ? std::vector{straight(from, to)} : segment.curves;
+  reached_.push_back(0);
+  for (const HarnessCurve& curve : drawn) {
+    const std::size_t begin = spans_.size();
+    for (SplineSpan& span : spans_of(curve, reading)) {
+      reached_.push_back(reached_.back() + span.length());
+      spans_.push_back(std::move(span));
+    }
+    if (begin > 0 && spans_.size() > begin)
+      inner_gap = std::max(inner_gap, (spans_[begin].values(0).at - spans_[begin - 1].values(1).at).norm());
+  }
+  if (spans_.empty()) {  // knots that coincide throughout
+    spans_.emplace_back(straight(from, to), knots_of(straight(from, to), KnotReading::clamped), 1);
+    reached_.push_back(spans_.back().length());
+  }
+  start_gap = (spans_.front().values(0).at - from).norm();
+  finish_gap = (spans_.back().values(1).at - to).norm();
+  stated_ = segment.virtual_length;
+  length_off = stated_ > 0 ? length() - stated_ : 0;
+}
+
+CentreLine::CentreLine(const HarnessFile& file, const HarnessSegment& segment)
+    : CentreLine(file, segment, KnotReading::clamped) {
+  if (segment.curves.empty() || all_have_knots(segment)) return;
+  CentreLine other(file, segment, KnotReading::unclamped);
+  if (other.misfit() < misfit()) *this = std::move(other);
+}
+
+double CentreLine::misfit() const { return start_gap + finish_gap + inner_gap + std::abs(length_off); }
+
+bool CentreLine::sound() const {
+  return start_gap <= most_gap && finish_gap <= most_gap && inner_gap <= most_gap && length() > 0 &&
+         std::abs(length_off) <= std::max(most_length_off, most_relative_off * stated_);
+}
+
+std::string CentreLine::complaint() const {
+  if (sound()) return "";
+  const auto mm = [](double metres) { return number_text(1e3 * metres) + " mm"; };
+  std::string text;
+  const auto add = [&](bool wrong, const std::string& what) {
+    if (wrong) text += (text.empty() ? "" : ", ") + what;
+  };
+  add(length() <= 0, "its centre line has no length");
+  add(start_gap > most_gap, "its centre line begins " + mm(start_gap) + " from its start node");
+  add(finish_gap > most_gap, "its centre line ends " + mm(finish_gap) + " from its end node");
+  add(inner_gap > most_gap, "its curves are " + mm(inner_gap) + " apart");
+  add(std::abs(length_off) > std::max(most_length_off, most_relative_off * stated_),
+      "its centre line is " + mm(length()) + " long, stated are " + mm(stated_));
+  return text;
+}
+
+const SplineSpan& CentreLine::span_at(double s, double& t) const {
+  const auto after = std::upper_bound(reached_.begin(), reached_.end(), s);
+  const auto span = std::clamp<std::ptrdiff_t>(after - reached_.begin() - 1, 0, static_cast<std::ptrdiff_t>(spans_.size()) - 1);
+  t = spans_[span].parameter(std::clamp(s - reached_[span], 0.0, spans_[span].length()));
+  return spans_[span];
+}
+
+Vec3 CentreLine::at(double s) const {
+  double t = 0;
+  const SplineSpan& span = span_at(s, t);
+  return span.values(t).at;
+}
+
+Vec3 CentreLine::tangent(double s) const {
+  double t = 0;
+  const SplineSpan& span = span_at(s, t);
+  const Vec3 along = span.values(t).first;
+  if (along.norm() > 1e-9 * span.length()) return along.normalized();
+  const Vec3 chord = at(std::min(length(), s + 0.01 * length())) - at(std::max(0.0, s - 0.01 * length()));
+  return chord.norm() > 0 ? Vec3(chord.normalized()) : Vec3(Vec3::UnitX());
+}
+
+double CentreLine::min_bend_radius() const {
+  constexpr int places = 64;
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const SplineSpan& span : spans_)
+    for (int k = 0; k <= places; ++k) {
+      const SplineSpan::Values v = span.values(double(k) / places);
+      const double bend = v.first.cross(v.second).norm();
+      if (bend > 0) smallest = std::min(smallest, std::pow(v.first.norm(), 3) / bend);
+    }
+  return smallest;
+}
+
+}  // namespace tendril
