@@ -36,17 +36,56 @@ CentreLine::CentreLine(const HarnessFile& file, const HarnessSegment& segment, K
     spans_.emplace_back(straight(from, to), knots_of(straight(from, to), KnotReading::clamped), 1);
     reached_.push_back(spans_.back().length());
   }
-  start_gap = (spans_.front().values(0).at - from).norm();
-  finish_gap = (spans_.back().values(1).at - to).norm();
   stated_ = segment.virtual_length;
+  end_ = whole_length();
+  measure(from, to);
+}
+
+void CentreLine::measure(const Vec3& from, const Vec3& to) {
+  start_gap = (at(0) - from).norm();
+  finish_gap = (at(length()) - to).norm();
   length_off = stated_ > 0 ? length() - stated_ : 0;
 }
 
 CentreLine::CentreLine(const HarnessFile& file, const HarnessSegment& segment)
     : CentreLine(file, segment, KnotReading::clamped) {
-  if (segment.curves.empty() || all_have_knots(segment)) return;
-  CentreLine other(file, segment, KnotReading::unclamped);
-  if (other.misfit() < misfit()) *this = std::move(other);
+  if (segment.curves.empty()) return;
+  if (!all_have_knots(segment)) {
+    CentreLine other(file, segment, KnotReading::unclamped);
+    if (other.misfit() < misfit()) *this = std::move(other);
+  }
+  if (!sound() && stated_ > 0 && stated_ < length()) cut_to(file.nodes[segment.start].at, file.nodes[segment.finish].at);
+}
+
+void CentreLine::cut_to(const Vec3& from, const Vec3& to) {
+  CentreLine part = *this;
+  part.begin_ = nearest(from);
+  part.end_ = nearest(to);
+  if (!(part.begin_ < part.end_)) return;
+  part.measure(from, to);
+  if (!part.sound()) return;
+  part.cut_off = length() - part.length();
+  *this = std::move(part);
+}
+
+/// Arc length of the whole line where it is nearest to `p`: the best of many places, then ever closer around it.
+double CentreLine::nearest(const Vec3& p) const {
+  constexpr int places = 64;
+  const int count = places * static_cast<int>(spans_.size());
+  const auto distance = [&](double s) { return (at(std::clamp(s, 0.0, whole_length())) - p).squaredNorm(); };
+  double step = whole_length() / count, best = 0, least = distance(0);
+  for (int k = 1; k <= count; ++k)
+    if (const double d = distance(k * step); d < least) {
+      least = d;
+      best = k * step;
+    }
+  for (; step > 1e-9 * whole_length(); step *= 0.5)
+    for (const double s : {best - 0.5 * step, best + 0.5 * step})
+      if (const double d = distance(s); d < least) {
+        least = d;
+        best = std::clamp(s, 0.0, whole_length());
+      }
+  return best;
 }
 
 double CentreLine::misfit() const { return start_gap + finish_gap + inner_gap + std::abs(length_off); }
@@ -73,6 +112,7 @@ std::string CentreLine::complaint() const {
 }
 
 const SplineSpan& CentreLine::span_at(double s, double& t) const {
+  s += begin_;
   const auto after = std::upper_bound(reached_.begin(), reached_.end(), s);
   const auto span = std::clamp<std::ptrdiff_t>(after - reached_.begin() - 1, 0, static_cast<std::ptrdiff_t>(spans_.size()) - 1);
   t = spans_[span].parameter(std::clamp(s - reached_[span], 0.0, spans_[span].length()));
