@@ -72,7 +72,7 @@ void CentreLine::cut_to(const Vec3& from, const Vec3& to) {
 double CentreLine::nearest(const Vec3& p) const {
   constexpr int places = 64;
   const int count = places * static_cast<int>(spans_.size());
-  const auto distance = [&](double s) { return (at(std::clamp(s, 0.0, whole_length())) - p).squaredNorm(); };
+  const auto distance = [&](double s) { return (at(s) - p).squaredNorm(); };  // of the whole: nothing is cut off yet
   double step = whole_length() / count, best = 0, least = distance(0);
   for (int k = 1; k <= count; ++k)
     if (const double d = distance(k * step); d < least) {
@@ -111,38 +111,42 @@ std::string CentreLine::complaint() const {
   return text;
 }
 
-const SplineSpan& CentreLine::span_at(double s, double& t) const {
-  s += begin_;
-  const auto after = std::upper_bound(reached_.begin(), reached_.end(), s);
-  const auto span = std::clamp<std::ptrdiff_t>(after - reached_.begin() - 1, 0, static_cast<std::ptrdiff_t>(spans_.size()) - 1);
-  t = spans_[span].parameter(std::clamp(s - reached_[span], 0.0, spans_[span].length()));
-  return spans_[span];
+CentreLine::Place CentreLine::place_on(int span, double t, double s) const {
+  const SplineSpan::Values v = spans_[span].values(t);
+  if (v.first.norm() > 1e-9 * spans_[span].length()) return {s, v.at, v.first.normalized()};
+  const Vec3 chord = spans_[span].values(std::min(1.0, t + 0.01)).at - spans_[span].values(std::max(0.0, t - 0.01)).at;
+  return {s, v.at, chord.norm() > 0 ? Vec3(chord.normalized()) : Vec3(Vec3::UnitX())};
 }
 
-Vec3 CentreLine::at(double s) const {
-  double t = 0;
-  const SplineSpan& span = span_at(s, t);
-  return span.values(t).at;
+CentreLine::Place CentreLine::place(double s) const {
+  const double whole = std::clamp(begin_ + s, begin_, end_);
+  const auto after = std::upper_bound(reached_.begin(), reached_.end(), whole);
+  const int span = std::clamp(static_cast<int>(after - reached_.begin()) - 1, 0, static_cast<int>(spans_.size()) - 1);
+  return place_on(span, spans_[span].parameter(std::clamp(whole - reached_[span], 0.0, spans_[span].length())), s);
 }
 
-Vec3 CentreLine::tangent(double s) const {
-  double t = 0;
-  const SplineSpan& span = span_at(s, t);
-  const Vec3 along = span.values(t).first;
-  if (along.norm() > 1e-9 * span.length()) return along.normalized();
-  const Vec3 chord = at(std::min(length(), s + 0.01 * length())) - at(std::max(0.0, s - 0.01 * length()));
-  return chord.norm() > 0 ? Vec3(chord.normalized()) : Vec3(Vec3::UnitX());
+std::vector<CentreLine::Place> CentreLine::places(int each) const {
+  std::vector<Place> found = {place(0)};
+  for (int span = 0; span < static_cast<int>(spans_.size()); ++span)
+    for (int k = 0; k < each; ++k) {
+      const double t = (k + 0.5) / each, s = reached_[span] + spans_[span].length_to(t) - begin_;
+      if (s > 0 && s < length()) found.push_back(place_on(span, t, s));
+    }
+  found.push_back(place(length()));
+  return found;
 }
 
 double CentreLine::min_bend_radius() const {
   constexpr int places = 64;
   double smallest = std::numeric_limits<double>::infinity();
-  for (const SplineSpan& span : spans_)
+  for (std::size_t span = 0; span < spans_.size(); ++span) {
+    if (reached_[span + 1] <= begin_ || reached_[span] >= end_) continue;
     for (int k = 0; k <= places; ++k) {
-      const SplineSpan::Values v = span.values(double(k) / places);
+      const SplineSpan::Values v = spans_[span].values(double(k) / places);
       const double bend = v.first.cross(v.second).norm();
       if (bend > 0) smallest = std::min(smallest, std::pow(v.first.norm(), 3) / bend);
     }
+  }
   return smallest;
 }
 

@@ -16,9 +16,14 @@ class CentreLine {
   CentreLine(const HarnessFile& file, const HarnessSegment& segment);
 
   double length() const { return end_ - begin_; }    ///< m
-  /// At an arc length (m) from the line's start.
-  Vec3 at(double s) const;                 ///< m
-  Vec3 tangent(double s) const;            ///< unit vector; where the curve stands still, that of the chord
+  struct Place {
+    double s = 0;                 ///< arc length from the line's start, m
+    Vec3 at, tangent;             ///< m; a unit vector, where the curve stands still that of the chord
+  };
+  Place place(double s) const;
+  Vec3 at(double s) const { return place(s).at; }
+  /// Both ends and `each` places of every piece between them, in order.
+  std::vector<Place> places(int each) const;
   double min_bend_radius() const;          ///< m, over 64 places of each piece; infinite for a straight one
   KnotReading reading() const { return reading_; }
 
@@ -43,7 +48,7 @@ class CentreLine {
   void cut_to(const Vec3& from, const Vec3& to);
   double nearest(const Vec3& p) const;
   double whole_length() const { return reached_.back(); }
-  const SplineSpan& span_at(double s, double& t) const;
+  Place place_on(int span, double t, double s) const;
 
   KnotReading reading_ = KnotReading::clamped;
   std::vector<SplineSpan> spans_;

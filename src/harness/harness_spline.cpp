@@ -86,6 +86,11 @@ double SplineSpan::length_between(double t0, double t1) const {
   return sum * half;
 }
 
+double SplineSpan::length_to(double t) const {
+  const int part = std::clamp(static_cast<int>(t * parts), 0, parts - 1);
+  return reached_[part] + length_between(double(part) / parts, t);
+}
+
 double SplineSpan::parameter(double arc_length) const {
   const auto after = std::upper_bound(reached_.begin(), reached_.end(), arc_length);
   const int part = std::clamp(static_cast<int>(after - reached_.begin()) - 1, 0, parts - 1);

@@ -29,9 +29,11 @@ class SplineSpan {
   double length() const { return reached_.back(); }  ///< m
   /// The t where the piece has run so far (m, within 0 ... length()).
   double parameter(double arc_length) const;
-  double length_between(double t0, double t1) const;
+  double length_to(double t) const;      ///< m, from t = 0
 
  private:
+  double length_between(double t0, double t1) const;
+
   static constexpr int parts = 8;
   using Coefficient = Eigen::Vector4d;  ///< x, y, z times the weight, and the weight
 

@@ -5,6 +5,8 @@
 #include <cctype>
 #include <cmath>
 
+#include "base/number_text.h"
+
 namespace tendril {
 namespace {
 
@@ -39,6 +41,8 @@ struct Prefix {
   std::string_view name;
   double factor;
 };
+constexpr double largest = 1e6;
+
 constexpr std::array prefixes = {Prefix{"", 1},       Prefix{"milli", 1e-3}, Prefix{"centi", 1e-2}, Prefix{"deci", 1e-1},
                                  Prefix{"micro", 1e-6}, Prefix{"kilo", 1e3}};
 
@@ -68,7 +72,9 @@ double KblUnits::value(XmlFile::Node owner, const char* name, Quantity quantity)
   const double in_si = factor(unit, quantity);
   if (in_si == 0)
     file_.fail(value, "<" + std::string(name) + ">: its unit '" + unit.attribute("id").value() + "' is not that of " + name_of(quantity));
-  return file_.number(value, XmlFile::text(value, "Value_component")) * in_si;
+  const double number = file_.number(value, XmlFile::text(value, "Value_component")) * in_si;
+  if (number < 0 || number > largest) file_.fail(value, "<" + std::string(name) + ">: got " + number_text(number) + " (SI), expected 0 to 1e6");
+  return number;
 }
 
 bool KblUnits::fits(XmlFile::Node owner, const char* name, Quantity quantity) const {

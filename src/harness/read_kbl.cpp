@@ -14,7 +14,7 @@ namespace {
 
 using Node = XmlFile::Node;
 
-constexpr double mm = 1e-3;
+constexpr double mm = 1e-3, farthest = 1e6;  // m
 constexpr int highest_degree = 24;
 
 class KblReader {
@@ -57,7 +57,10 @@ void KblReader::check_root() {
 
 /// A Cartesian_point in m.
 Vec3 KblReader::point(Node from, std::string_view id) const {
-  return file_.vector(file_.referenced(from, id, "Cartesian_point"), "Coordinates") * mm;
+  const Node node = file_.referenced(from, id, "Cartesian_point");
+  const Vec3 found = file_.vector(node, "Coordinates") * mm;
+  if (found.cwiseAbs().maxCoeff() > farthest) file_.fail(node, "<Cartesian_point>: it lies farther than 1000 km from the origin");
+  return found;
 }
 
 /// U and V are the axes d1 and d2.

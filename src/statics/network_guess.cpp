@@ -174,6 +174,37 @@ void vary(const GuessVariant& variant, RodProblem& rod) {
   if (last->orientation) last->turns += variant.turns;
 }
 
+bool same_place(const Frame& a, const Frame& b, double length, bool position, bool orientation) {
+  constexpr double near = 1e-3;  // rad, and share of the length
+  return (!position || (a.at - b.at).norm() < near * length) && (!orientation || a.rotation.angularDistance(b.rotation) < near);
+}
+
+/// True where every rod's unstressed shape lies in the world as its holds and branch points have it: the drawing of a harness.
+bool drawn_in_place(const SystemProblem& problem) {
+  for (const RodProblem& rod : problem.rods) {
+    if (!rod.rod.shape) return false;
+    for (const Hold& hold : rod.holds)
+      if (hold.turns != 0 || !same_place(rod.rod.shape(hold.at), hold.frame, rod.rod.length, hold.position, hold.orientation)) return false;
+  }
+  for (const BranchPoint& branch : problem.branches)
+    for (const JoinedSection& section : branch.sections) {
+      const Rod& rod = problem.rods[section.rod].rod;
+      if (!same_place(rod.shape(section.at), branch.frame * section.relative, rod.length, true, true)) return false;
+    }
+  return true;
+}
+
+/// Nothing but the loads is out of balance then.
+NetworkGuess as_drawn(const RodNetwork& network) {
+  NetworkGuess guess;
+  for (const BranchPoint& branch : network.problem().branches) guess.branches.push_back(branch.frame);
+  for (int k = 0; k < network.rods(); ++k) {
+    guess.rods.emplace_back();
+    for (const double s : network.rod(k).mesh().s) guess.rods.back().push_back(network.problem().rods[k].rod.shape(s));
+  }
+  return guess;
+}
+
 }  // namespace
 
 void hold_at_branches(const RodNetwork& network, const NetworkGuess& guess, int rod, RodProblem& problem, RodMesh& mesh) {
@@ -189,6 +220,7 @@ void hold_at_branches(const RodNetwork& network, const NetworkGuess& guess, int 
 
 NetworkGuess network_guess(const RodNetwork& network, const GuessVariant& variant) {
   const SystemProblem& problem = network.problem();
+  if (variant.rod < 0 && !problem.branches.empty() && drawn_in_place(problem)) return as_drawn(network);
   NetworkGuess guess;
   for (const BranchPoint& branch : problem.branches) guess.branches.push_back(branch.frame);
   if (!problem.branches.empty()) {
