@@ -29,7 +29,10 @@ MeshValue read_mesh(lua_State* L, const MeshSource& source, const Options& o) {
   }
   if (!o.has("unit"))
     throw UsageError("scene.mesh: 'unit' is missing: files do not say it, and it is never guessed; give unit = \"mm\", \"cm\", \"m\" or \"in\"");
-  return {surface_from_file(L, "scene.mesh", std::get<std::string>(source), metres_per(o.get<std::string>("unit")))};
+  MeshValue mesh;
+  mesh.file = MeshFile{std::get<std::string>(source), metres_per(o.get<std::string>("unit"))};
+  mesh.surface = surface_from_file(L, "scene.mesh", mesh.file->path, mesh.file->unit);
+  return mesh;
 }
 
 /// Triangles with corners counted from 1, as in {points =, triangles =}.

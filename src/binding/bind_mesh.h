@@ -6,6 +6,7 @@
 #include "binding/lua_value.h"
 #include "geometry/inside_test.h"
 #include "geometry/triangle_surface.h"
+#include "scene/placed_obstacle.h"
 
 namespace tendril::lua {
 
@@ -13,6 +14,7 @@ namespace tendril::lua {
 struct MeshValue {
   std::shared_ptr<const TriangleSurface> surface;
   std::shared_ptr<const InsideTest> inside = nullptr;  ///< made by the first question
+  std::optional<MeshFile> file = std::nullopt;         ///< that it was read from
   const Mesh& mesh() const { return surface->mesh(); }
 };
 

@@ -107,6 +107,9 @@ PlacedObstacle make_obstacle(lua_State* L, const std::string& name, const Obstac
   obstacle.prefer = preference_of(o.get<std::string>("prefer"));
   obstacle.clip = o.get<bool>("clip");
   obstacle.body.shape = make_shape(L, name, source, o);
+  if (const MeshValue* mesh = std::get_if<MeshValue>(&source)) obstacle.file = mesh->file;
+  if (const std::string* path = std::get_if<std::string>(&source))
+    obstacle.file = MeshFile{*path, metres_per(o.get<std::string>("unit"))};
   return obstacle;
 }
 

@@ -194,6 +194,7 @@ void bind_material_and_section(lua_State* L) {
       .property("EI2", "N m^2", "Bending stiffness about d2", stiffness(&Section::EI2))
       .property("GJ", "N m^2", "Twist stiffness", stiffness(&Section::GJ))
       .property("mass", "kg/m", "Mass per length", stiffness(&Section::mass))
+      .property("material", "", "What it is made of; nil where the stiffnesses were measured", [](const Section& s) { return s.made_of(); })
       .tostring(describe_section);
 }
 

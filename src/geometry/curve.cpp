@@ -36,7 +36,7 @@ void check_points(const char* kind, const std::vector<Vec3>& points) {
 
 Curve Curve::polyline(const std::vector<Vec3>& points) {
   check_points("polyline", points);
-  return {"polyline", points, make_polyline_path(points)};
+  return {"polyline", Origin{.points = points}, make_polyline_path(points)};
 }
 
 Curve Curve::pcc(const std::vector<Vec3>& points, double radius) {
@@ -56,7 +56,7 @@ Curve Curve::pcc(const std::vector<Vec3>& points, const std::vector<double>& rad
       said << "curve.pcc: the radius at point " << i + 2 << " is " << radii[i] << "; a finite length above 0 expected (m)";
       throw UsageError(said.str());
     }
-  return {"pcc", points, make_pcc_path(points, radii)};
+  return {"pcc", Origin{.points = points, .radii = radii}, make_pcc_path(points, radii)};
 }
 
 Curve Curve::spline(const std::vector<Vec3>& points, const SplineEnds& ends) {
@@ -64,7 +64,7 @@ Curve Curve::spline(const std::vector<Vec3>& points, const SplineEnds& ends) {
   for (const auto& [end, name] : {std::pair{&ends.start, "start"}, std::pair{&ends.finish, "finish"}})
     if (*end && !(all_finite(**end) && (*end)->norm() > 0))
       throw UsageError(std::string("curve.spline: the direction at the ") + name + " is not a finite vector other than zero");
-  return {"spline", points, make_spline_path(points, ends)};
+  return {"spline", Origin{.points = points, .ends = ends}, make_spline_path(points, ends)};
 }
 
 Curve Curve::helix(double radius, double pitch, double turns, bool left_handed) {
@@ -77,8 +77,13 @@ Curve Curve::helix(double radius, double pitch, double turns, bool left_handed) 
   }
   auto path = make_helix_path(radius, pitch, turns, left_handed);
   if (!std::isfinite(path->length())) throw UsageError("curve.helix: longer than a number can tell");
-  const std::vector<Vec3> ends{path->frame(0).at, path->frame(path->length()).at};
-  return {"helix", ends, std::move(path)};
+  Origin origin;
+  origin.points = {path->frame(0).at, path->frame(path->length()).at};
+  origin.radius = radius;
+  origin.pitch = pitch;
+  origin.turns = turns;
+  origin.left_handed = left_handed;
+  return {"helix", std::move(origin), std::move(path)};
 }
 
 double Curve::checked(double s) const {

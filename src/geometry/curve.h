@@ -49,8 +49,19 @@ class Curve {
   /// are above 0 and all three are finite.
   static Curve helix(double radius, double pitch, double turns, bool left_handed = false);
 
+  /// What a curve was made from, by its kind: points, and for "pcc" the radii, for "spline" the ends; for "helix" its numbers
+  /// alone (the points are then its ends).
+  struct Origin {
+    std::vector<Vec3> points = {};
+    std::vector<double> radii = {};
+    SplineEnds ends = {};
+    double radius = 0, pitch = 0, turns = 0;
+    bool left_handed = false;
+  };
+  const Origin& origin() const { return *origin_; }
+
   const char* kind() const { return kind_; }  ///< "polyline", "pcc", "spline" or "helix"
-  const std::vector<Vec3>& points() const { return *points_; }  ///< those it was made from; a helix: its ends
+  const std::vector<Vec3>& points() const { return origin_->points; }  ///< those it was made from; a helix: its ends
 
   double length() const { return path_->length(); }
 
@@ -74,12 +85,12 @@ class Curve {
   std::vector<Vec3> sampled(double spacing) const;
 
  private:
-  Curve(const char* kind, const std::vector<Vec3>& points, std::unique_ptr<const CurvePath> path)
-      : kind_(kind), points_(std::make_shared<const std::vector<Vec3>>(points)), path_(std::move(path)) {}
+  Curve(const char* kind, Origin origin, std::unique_ptr<const CurvePath> path)
+      : kind_(kind), origin_(std::make_shared<const Origin>(std::move(origin))), path_(std::move(path)) {}
   double checked(double s) const;
 
   const char* kind_;
-  std::shared_ptr<const std::vector<Vec3>> points_;
+  std::shared_ptr<const Origin> origin_;
   std::shared_ptr<const CurvePath> path_;
 };
 

@@ -31,7 +31,8 @@ const std::vector<std::string>& builtin_robots() {
 
 std::shared_ptr<const Robot> load_robot(const std::string& name) {
   constexpr const char* builtin = "builtin:";
-  if (!name.starts_with(builtin)) return load_urdf(name);
+  const auto from = [&](const std::string& file) { return std::make_shared<const Robot>(load_urdf(file)->with_source(name)); };
+  if (!name.starts_with(builtin)) return from(name);
   const std::string wanted = name.substr(8);
   const auto& known = builtin_robots();
   if (std::find(known.begin(), known.end(), wanted) == known.end())
@@ -40,7 +41,7 @@ std::shared_ptr<const Robot> load_robot(const std::string& name) {
   std::error_code error;
   for (const fs::path& folder : asset_folders()) {
     const fs::path file = folder / wanted / (wanted + ".urdf");
-    if (fs::exists(file, error)) return load_urdf(file.lexically_normal().string());
+    if (fs::exists(file, error)) return from(file.lexically_normal().string());
     looked += (looked.empty() ? "'" : ", '") + file.lexically_normal().string() + "'";
   }
   throw UsageError("robot: the files of '" + name + "' are missing (looked for " +

@@ -35,6 +35,12 @@ const char* name_of(JointKind kind) {
   return "unknown";
 }
 
+Robot Robot::with_source(std::string source) const {
+  Robot copy = *this;
+  copy.source_ = std::move(source);
+  return copy;
+}
+
 Robot::Robot(std::string name, std::vector<Link> links, std::vector<Joint> joints)
     : name_(std::move(name)), links_(std::move(links)), joints_(std::move(joints)) {
   if (links_.empty() || links_.size() != joints_.size() + 1)

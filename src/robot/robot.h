@@ -63,6 +63,9 @@ class Robot {
   Robot(std::string name, std::vector<Link> links, std::vector<Joint> joints);
 
   const std::string& name() const { return name_; }
+  /// What load_robot() made it from, "builtin:NAME" or the path of a file; empty: it was made otherwise.
+  const std::string& source() const { return source_; }
+  Robot with_source(std::string source) const;
   const std::vector<Link>& links() const { return links_; }
   const std::vector<Joint>& joints() const { return joints_; }
 
@@ -123,7 +126,7 @@ class Robot {
   void find_tip();
   static Frame moved(const Step& step, const double* q);
 
-  std::string name_;
+  std::string name_, source_;
   std::vector<Link> links_;
   std::vector<Joint> joints_;
   std::vector<int> variables_;

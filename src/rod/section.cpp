@@ -48,8 +48,18 @@ Section Section::round(double outer, double inner, const Material& material, dou
   section.EI1 = section.EI2 = material.young * second_moment;
   section.GJ = material.shear * 2 * second_moment;
   section.mass = material.density * area;
+  section.material = material;
   section.check();
   return section;
+}
+
+std::optional<Material> Section::made_of() const {
+  if (!material || !(inner < outer)) return std::nullopt;
+  const Section fresh = round(outer, inner, *material);
+  const auto same = [](double a, double b) { return std::abs(a - b) <= 1e-12 * std::abs(b); };
+  const bool follows = same(EA, fresh.EA) && same(GA1, fresh.GA1) && same(GA2, fresh.GA2) && same(EI1, fresh.EI1) &&
+                       same(EI2, fresh.EI2) && same(GJ, fresh.GJ) && same(mass, fresh.mass);
+  return follows ? material : std::nullopt;
 }
 
 void Section::check() const {

@@ -1,6 +1,8 @@
 // What a rod is made of: the material and the cross-section's stiffnesses.
 #pragma once
 
+#include <optional>
+
 namespace tendril {
 
 /// An isotropic linear-elastic material. SI: young, shear in Pa; density in kg/m^3.
@@ -21,6 +23,11 @@ struct Section {
   double EA = 0, GA1 = 0, GA2 = 0;
   double EI1 = 0, EI2 = 0, GJ = 0;
   double mass = 0;
+
+  std::optional<Material> material = std::nullopt;  ///< that round() was given; see made_of()
+
+  /// The material, where the stiffnesses and the mass are still those that follow from it: then it says all that they say.
+  std::optional<Material> made_of() const;
 
   double radius() const { return 0.5 * outer; }
 

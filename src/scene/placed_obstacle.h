@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "geometry/surroundings.h"
@@ -12,6 +13,12 @@ namespace tendril {
 /// Whether a route should keep near an obstacle, keep away from it, or does not care.
 enum class Preference { neutral, near, avoid };
 
+/// A mesh file as it was read. `unit`: metres in one unit of the file.
+struct MeshFile {
+  std::string path;
+  double unit = 1;
+};
+
 struct PlacedObstacle {
   std::string name;
   Obstacle body;                 ///< its name and clearance are set by Scene
@@ -19,6 +26,7 @@ struct PlacedObstacle {
   Preference prefer = Preference::neutral;
   bool clip = true;              ///< rods may be fastened to it
   bool of_robot = false;         ///< a robot's link
+  std::optional<MeshFile> file = std::nullopt;  ///< that its mesh was read from
   std::function<std::shared_ptr<const Mesh>()> drawn = {};  ///< what pictures show instead, in the body's axes; empty: the body
 
   /// Throws UsageError for an empty name, a missing mesh, or a clearance that is negative or not finite.
