@@ -6,8 +6,7 @@
 -- Further arguments: assets=FOLDER where engine_bay.ply lies, out=FOLDER for pictures and files.
 local mm, MPa = units.mm, units.MPa
 
-local here = arg[0]:match("^(.*)/") or "."
-local given = {assets = here .. "/../../build/assets", out = "out", form = ""}
+local given = {assets = study.assets(), out = "out", form = ""}
 for _, a in ipairs(arg) do
   local key, value = a:match("^(%w+)=(.+)$")
   if a == "light" then given.form = "_light"

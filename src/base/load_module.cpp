@@ -2,26 +2,20 @@
 
 #include <dlfcn.h>
 
-#include <cstdlib>
 #include <filesystem>
 
 #include "base/error.h"
+#include "base/installation.h"
 
 namespace tendril {
 
 ModuleEntry load_module(const char* file, const char* entry) {
-  std::filesystem::path folder;
+  const std::string folder = part_folder(Part::modules);
   std::error_code error;
-  if (const char* named = std::getenv("TENDRIL_MODULES"); named && *named) {
-    folder = named;
-  } else {
-    folder = std::filesystem::read_symlink("/proc/self/exe", error).parent_path() / "modules";
-    if (error)
-      return {nullptr, file, "cannot tell where the program lies (" + error.message() + "); set TENDRIL_MODULES to the folder of " + file};
-  }
-  ModuleEntry out{nullptr, (folder / file).string(), {}};
-  if (!std::filesystem::exists(out.path, error)) {
-    out.problem = "the module '" + out.path + "' is missing; build it or set TENDRIL_MODULES to its folder";
+  ModuleEntry out{nullptr, (std::filesystem::path(folder) / file).string(), {}};
+  if (folder.empty() || !std::filesystem::exists(out.path, error)) {
+    out.problem = "the module " + (folder.empty() ? part_places(Part::modules, file) : "'" + out.path + "'") +
+                  " is missing; build it or set TENDRIL_MODULES to its folder";
     return out;
   }
   void* handle = ::dlopen(out.path.c_str(), RTLD_NOW | RTLD_LOCAL);

@@ -12,8 +12,8 @@ struct ModuleEntry {
   std::string problem;   ///< empty with an address
 };
 
-/// Looks for `file` in the folder that the environment variable TENDRIL_MODULES names, else in "modules" beside the program,
-/// and for the function `entry` in it. What was loaded once stays loaded. Never throws for a module that cannot be loaded.
+/// Looks for `file` in the folder of modules (base/installation.h) and for the function `entry` in it. What was loaded once
+/// stays loaded. Never throws for a module that cannot be loaded.
 ModuleEntry load_module(const char* file, const char* entry);
 
 /// As load_module(); throws UsageError "who: ..." where there is none.

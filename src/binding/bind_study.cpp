@@ -1,4 +1,6 @@
 // study: charts, and what a result costs.
+#include "base/error.h"
+#include "base/installation.h"
 #include "base/number_text.h"
 #include "binding/accuracy_chart.h"
 #include "binding/bind_motion.h"
@@ -273,7 +275,16 @@ void bind_study(lua_State* L) {
                 {.takes = {"scene"}, .options = accuracy_options(),
                  .does = "Solves a scene with more and more segments: error, order and time of each.",
                          .example = with_hose("print(study.accuracy(s, {segments = {10, 20, 40}}))")},
-                make_accuracy);
+                make_accuracy)
+      .function("assets",
+                {.does = "The folder of the models that come with the program: engine_bay.ply, engine_bay_light.ply, six_axis.",
+                 .example = "local bay = study.assets() .. \"/engine_bay_light.ply\"\nassert(bay:sub(1, 1) == \"/\")"},
+                [] {
+                  const std::string folder = part_folder(Part::assets);
+                  if (folder.empty()) throw UsageError("study.assets: there is no folder " + part_places(Part::assets, "") +
+                                                       "; build the models or set TENDRIL_ASSETS to their folder");
+                  return folder;
+                });
 }
 
 }  // namespace tendril::lua

@@ -79,7 +79,9 @@ std::string usage() {
          "  --annotations   print editor annotations of every function and leave\n"
          "Without arguments: an interactive session, or the script on standard input when that is no terminal.\n"
          "Exit codes: 0 done, 1 error in the script, 2 wrong usage, 130 interrupted.\n"
-         "Environment: TENDRIL_LUA folders searched for modules, TENDRIL_MEMORY limit of Lua's memory (8G), NO_COLOR.\n";
+         "Environment: TENDRIL_LUA folders searched for modules, TENDRIL_MEMORY limit of Lua's memory (8G), NO_COLOR;\n"
+         "  TENDRIL_MODULES, TENDRIL_ASSETS, TENDRIL_FONTS other folders of what comes with the program; TENDRIL_BATCH its inner\n"
+         "  loop (common, avx2, avx512); TERM, HOME, XDG_STATE_HOME as usual. More: man tendril.\n";
 }
 
 }  // namespace tendril::shell

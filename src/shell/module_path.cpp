@@ -1,24 +1,13 @@
 #include "shell/module_path.h"
 
-#include <sys/stat.h>
-#include <unistd.h>
-
+#include <algorithm>
 #include <cstdlib>
 #include <vector>
 
+#include "base/installation.h"
+
 namespace tendril::shell {
 namespace {
-
-bool is_folder(const std::string& path) {
-  struct stat found {};
-  return ::stat(path.c_str(), &found) == 0 && S_ISDIR(found.st_mode);
-}
-
-std::string folder_of_program() {
-  char path[4096];
-  const ssize_t size = ::readlink("/proc/self/exe", path, sizeof path);
-  return size > 0 ? folder_of(std::string(path, static_cast<std::size_t>(size))) : "./";
-}
 
 std::vector<std::string> split(const std::string& list) {
   std::vector<std::string> parts;
@@ -43,12 +32,7 @@ std::string module_path(const std::string& script_folder, bool with_environment)
   const char* wanted = with_environment ? std::getenv("TENDRIL_LUA") : nullptr;
   if (wanted)
     for (const std::string& folder : split(wanted)) folders.push_back(folder + "/");
-  const std::string program = folder_of_program();
-  for (const std::string& folder : {program + "../lua", program + "../share/tendril/lua", std::string(TENDRIL_SOURCE_LUA)})
-    if (is_folder(folder)) {
-      folders.push_back(folder + "/");
-      break;
-    }
+  if (const std::string own = part_folder(Part::lua); !own.empty()) folders.push_back(own + "/");
   std::string path;
   for (const std::string& folder : folders) {
     if (folder.find_first_of(";?") != std::string::npos) continue;  // Lua's own separators: no such folder can be named

@@ -14,8 +14,8 @@ inline constexpr const char* render_entry = "tendril_render_picture";
 using RenderPicture = bool (*)(const Picture& picture, const RunContext& context, PictureReport& report,
                                std::string& png, std::string& error);
 
-/// The entry of tendril_render.so, loaded on the first call. It is looked for in the folder that the environment's
-/// TENDRIL_MODULES names, else in `modules` beside the running program. Throws UsageError when it cannot be loaded.
+/// The entry of tendril_render.so, loaded on the first call. Throws UsageError when it cannot be
+/// loaded.
 RenderPicture render_module();
 
 }  // namespace tendril
