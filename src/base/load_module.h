@@ -16,6 +16,10 @@ struct ModuleEntry {
 /// stays loaded. Never throws for a module that cannot be loaded.
 ModuleEntry load_module(const char* file, const char* entry);
 
+/// Every module has this entry of type `const char* ()`: the library that it wraps, with its version. What begins with "broken: "
+/// says why the library cannot be used.
+inline constexpr const char* module_about = "tendril_module_about";
+
 /// As load_module(); throws UsageError "who: ..." where there is none.
 void* module_entry(const char* who, const char* file, const char* entry);
 

@@ -36,6 +36,11 @@ Step read_step(int argc, const char* const* argv, int& i) {
 
 Arguments parse_arguments(int argc, const char* const* argv) {
   Arguments a;
+  if (argc > 1 && std::strcmp(argv[1], "doctor") == 0) {
+    if (argc > 2) throw UsageError("'tendril doctor' takes nothing more; a script of that name runs as ./doctor");
+    a.mode = Arguments::Mode::doctor;
+    return a;
+  }
   int i = 1;
   for (; i < argc && argv[i][0] == '-'; ++i) {
     const std::string option = argv[i];
@@ -65,6 +70,7 @@ Arguments parse_arguments(int argc, const char* const* argv) {
 
 std::string usage() {
   return "usage: tendril [options] [script [args]]\n"
+         "       tendril doctor  say what is there on this machine and what is missing (a script of that name: ./doctor)\n"
          "  -e code         run `code`\n"
          "  -i              enter interactive mode after running `script`\n"
          "  -l mod          require module `mod` into global `mod`\n"

@@ -13,7 +13,7 @@ struct Step {
 };
 
 struct Arguments {
-  enum class Mode { run, help, version_only, annotations };
+  enum class Mode { run, help, version_only, annotations, doctor };
 
   Mode mode = Mode::run;
   std::vector<Step> steps;

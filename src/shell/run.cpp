@@ -12,6 +12,7 @@
 #include "base/processes.h"
 #include "binding/lua_registry.h"
 #include "shell/arguments.h"
+#include "shell/doctor.h"
 #include "shell/history.h"
 #include "shell/module_path.h"
 #include "shell/repl.h"
@@ -145,6 +146,12 @@ int protected_program(lua_State* L) {
   return 0;
 }
 
+int run_doctor(const Terminal& terminal) {
+  const std::vector<Finding> findings = examine(terminal);
+  std::fputs(report_text(findings).c_str(), stdout);
+  return std::any_of(findings.begin(), findings.end(), [](const Finding& f) { return f.broken; }) ? failed : done;
+}
+
 int run_session(int argc, char** argv, const Arguments& arguments) {
   Session session(look_at_terminal(), memory_limit(!arguments.ignore_environment));
   lua_State* L = session.state();
@@ -173,6 +180,7 @@ int run(int argc, char** argv) {
     int code = done;
     if (arguments.mode == Arguments::Mode::help) std::fputs(usage().c_str(), stdout);
     else if (arguments.mode == Arguments::Mode::version_only) print_version();
+    else if (arguments.mode == Arguments::Mode::doctor) code = run_doctor(terminal);
     else code = run_session(argc, argv, arguments);
     if (std::fflush(stdout) != 0 && code == done) {
       tell(terminal, "cannot write to standard output");

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <cstring>
 #include <vector>
 
 namespace {
@@ -40,4 +41,13 @@ extern "C" void tendril_gather(const char* bytes, std::size_t size, void (*take)
       MPI_Bcast(message.data() + at, static_cast<int>(std::min(most, sizes[from] - at)), MPI_CHAR, from, MPI_COMM_WORLD);
     take(into, from, message.data(), message.size());
   }
+}
+
+/// Needs no MPI_Init: safe in a process that no launcher started.
+extern "C" const char* tendril_module_about() {
+  static char text[MPI_MAX_LIBRARY_VERSION_STRING];
+  int size = 0;
+  MPI_Get_library_version(text, &size);
+  if (char* rest = std::strpbrk(text, ",\n")) *rest = '\0';  // who built it, when and from what
+  return text;
 }

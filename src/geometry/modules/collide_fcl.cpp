@@ -1,5 +1,6 @@
 // The module tendril_collide.so: whether bodies touch, by FCL. Nothing else of the project includes FCL. Only yes or no is
 // asked of it: its distances, nearest points and depths are not to be relied on.
+#include <fcl/config.h>
 #include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/geometry/shape/box.h>
 #include <fcl/geometry/shape/cylinder.h>
@@ -58,3 +59,5 @@ class FclTouchTest final : public TouchTest {
 }  // namespace
 
 extern "C" tendril::TouchTest* tendril_make_touch_test() { return new FclTouchTest; }
+
+extern "C" const char* tendril_module_about() { return "FCL " FCL_VERSION; }

@@ -2,6 +2,7 @@
 
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
+#include <assimp/version.h>
 
 #include <assimp/Importer.hpp>
 #include <assimp/ProgressHandler.hpp>
@@ -86,4 +87,10 @@ extern "C" bool tendril_import_mesh(const char* path, const RunContext& context,
 } catch (const std::exception& failure) {
   error = std::string("damaged (") + failure.what() + ")";
   return false;
+}
+
+extern "C" const char* tendril_module_about() {
+  static const std::string about = "assimp " + std::to_string(aiGetVersionMajor()) + "." + std::to_string(aiGetVersionMinor()) + "." +
+                                   std::to_string(aiGetVersionPatch());
+  return about.c_str();
 }

@@ -1,6 +1,9 @@
 // The drawing module's entry. Exceptions end here: the caller gets words.
+#include <png.h>
+
 #include <exception>
 
+#include "view/render/gl.h"
 #include "view/render/sheet.h"
 #include "view/render_module.h"
 
@@ -21,4 +24,17 @@ extern "C" __attribute__((visibility("default"))) bool tendril_render_picture(co
     error = failure.what();
     return false;
   }
+}
+
+/// What draws, by making a context of it.
+extern "C" __attribute__((visibility("default"))) const char* tendril_module_about() {
+  static std::string about;
+  try {
+    const tendril::render::Context context;
+    about = "OpenGL " + std::string(reinterpret_cast<const char*>(glGetString(GL_VERSION))) + ", " +
+            reinterpret_cast<const char*>(glGetString(GL_RENDERER)) + "; libpng " PNG_LIBPNG_VER_STRING;
+  } catch (const std::exception& failure) {
+    about = std::string("broken: ") + failure.what();
+  }
+  return about.c_str();
 }

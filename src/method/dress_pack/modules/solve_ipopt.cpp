@@ -179,3 +179,5 @@ extern "C" void tendril_solve_nonlinear(NonlinearProgram& program, const Nonline
     out.message = "the solver of non-linear programs failed";
   }
 }
+
+extern "C" const char* tendril_module_about() { return "Ipopt " IPOPT_VERSION; }

@@ -2,6 +2,7 @@
 #include <nlopt.h>
 
 #include <memory>
+#include <string>
 
 #include "method/route/derivative_free.h"
 
@@ -38,4 +39,11 @@ extern "C" void tendril_search_without_derivatives(const SearchTask& task, Searc
   out.x = task.start;
   const nlopt_result result = nlopt_optimize(method.get(), out.x.data(), &out.value);
   out.converged = result > 0 && result != NLOPT_MAXEVAL_REACHED && result != NLOPT_MAXTIME_REACHED;
+}
+
+extern "C" const char* tendril_module_about() {
+  int major = 0, minor = 0, fix = 0;
+  nlopt_version(&major, &minor, &fix);
+  static const std::string about = "NLopt " + std::to_string(major) + "." + std::to_string(minor) + "." + std::to_string(fix);
+  return about.c_str();
 }

@@ -83,3 +83,5 @@ extern "C" tendril::variation::Database* tendril_open_database(const char* path,
   }
   return new tendril::variation::SqliteDatabase(handle);
 }
+
+extern "C" const char* tendril_module_about() { return "SQLite " SQLITE_VERSION; }
