@@ -9,6 +9,7 @@
 
 #include "base/write_file.h"
 #include "geometry/mesh_file.h"
+#include "geometry/read_vrml.h"
 
 namespace tendril {
 
@@ -27,9 +28,10 @@ std::string kind_of(std::string_view content) {
   if (begins("PK\x03\x04")) return ".3mf";
   if (begins("ply\n") || begins("ply\r")) return ".ply";
   if (content.substr(0, 4096).find("<COLLADA") != content.npos) return ".dae";
+  if (content.substr(0, 4096).find("<X3D") != content.npos) return ".x3d";
   if (begins("\x89PNG")) return "PNG picture";
   if (begins("\xff\xd8\xff")) return "JPEG picture";
-  if (begins("#VRML")) return "VRML";
+  if (begins("#VRML")) return ".wrl";
   if (begins("ISO-10303-21")) return "STEP";
   if (begins("\x7f" "ELF")) return "program";
   if (begins("%PDF")) return "PDF";
@@ -39,10 +41,10 @@ std::string kind_of(std::string_view content) {
 
 void check_kind(const std::string& path, const std::string& suffix, std::string_view content) {
   const std::string kind = kind_of(content);
-  const bool text = suffix == ".obj" || suffix == ".gltf" || suffix == ".dae";
+  const bool text = suffix == ".obj" || suffix == ".gltf" || suffix == ".dae" || suffix == ".wrl" || suffix == ".x3d";
   if (!kind.empty() && kind != suffix)
     fail_mesh(path, "the file is of another kind than its name says: it begins like a " + kind + " file");
-  if (kind.empty() && (suffix == ".glb" || suffix == ".3mf" || suffix == ".dae"))
+  if (kind.empty() && (suffix == ".glb" || suffix == ".3mf" || suffix == ".dae" || suffix == ".x3d"))
     fail_mesh(path, "truncated or not a " + suffix + " file: it does not begin like one");
   if (text && content.substr(0, 4096).find('\0') != content.npos)
     fail_mesh(path, "not a " + suffix + " file: it holds binary data");
@@ -54,14 +56,16 @@ void check_kind(const std::string& path, const std::string& suffix, std::string_
   }
 }
 
-Mesh parsed(const std::string& path, const std::string& suffix, const RunContext& context) {
+Mesh parsed(const std::string& path, const std::string& suffix, const RunContext& context, std::string& left_out) {
   const std::string content = read_file(path);
   if (content.find_first_not_of(" \t\r\n") == content.npos) fail_mesh(path, "the file is empty");
+  if (content.substr(0, 2) == "\x1f\x8b") fail_mesh(path, "it is compressed with gzip; unpack it first: gunzip < packed > unpacked");
   check_kind(path, suffix, content);
   if (context.stop()) return {};
   if (suffix == ".obj") return parse_obj(content, path);
   if (suffix == ".stl") return parse_stl(content, path);
   if (suffix == ".ply") return parse_ply(content, path);
+  if (suffix == ".wrl") return parse_vrml(content, path, context, left_out);
   return import_by_module(path, context);
 }
 
@@ -79,7 +83,7 @@ void check_readable(const std::string& path) {
 void fail_mesh(const std::string& name, const std::string& why) { throw UsageError("mesh '" + name + "': " + why); }
 
 const std::vector<std::string>& mesh_suffixes() {
-  static const std::vector<std::string> suffixes = {".obj", ".stl", ".ply", ".gltf", ".glb", ".dae", ".3mf"};
+  static const std::vector<std::string> suffixes = {".obj", ".stl", ".ply", ".gltf", ".glb", ".dae", ".3mf", ".wrl", ".vrml", ".x3d"};
   return suffixes;
 }
 
@@ -106,7 +110,7 @@ LoadedMesh load_mesh(const std::string& path, double unit, const RunContext& con
   }
   check_readable(path);
   const std::string suffix = suffix_of(path);
-  std::string read;
+  std::string read, left_out;
   bool known = false;
   for (const std::string& other : mesh_suffixes()) {
     known |= suffix == other;
@@ -117,12 +121,13 @@ LoadedMesh load_mesh(const std::string& path, double unit, const RunContext& con
                         "; what is read: " + read);
 
   LoadedMesh loaded;
-  Mesh raw = parsed(path, suffix, context);
+  Mesh raw = parsed(path, suffix == ".vrml" ? ".wrl" : suffix, context, left_out);
   if (const auto stop = context.stop()) {
     loaded.status = *stop;
     return loaded;
   }
   raw.name = path;
+  if (raw.triangles.empty() && !left_out.empty()) fail_mesh(path, "no triangles; " + left_out);
   for (Vec3& v : raw.vertices) v *= unit;
   raw.check();
   loaded.triangles_in_file = static_cast<int>(raw.triangles.size());
@@ -133,7 +138,8 @@ LoadedMesh load_mesh(const std::string& path, double unit, const RunContext& con
   if (loaded.mesh.triangles.empty()) fail_mesh(path, "all of its triangles are degenerate");
   const double diagonal = loaded.mesh.box().diagonal().norm();
   const std::string why = unlikely_size(diagonal, unit);
-  if (!why.empty()) loaded.warning = "mesh '" + path + "': " + why;
+  if (!why.empty() || !left_out.empty())
+    loaded.warning = "mesh '" + path + "': " + left_out + (why.empty() || left_out.empty() ? "" : "; ") + why;
   return loaded;
 }
 

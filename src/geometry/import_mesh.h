@@ -1,4 +1,4 @@
-// Meshes from files: OBJ, STL and PLY by readers of our own, glTF, COLLADA and 3MF through the assimp module.
+// Meshes from files: OBJ, STL, PLY and VRML97 by readers of our own, glTF, COLLADA, 3MF and X3D through the assimp module.
 #pragma once
 
 #include <string>
@@ -13,7 +13,8 @@ namespace tendril {
 struct LoadedMesh {
   Status status = Status::solved;
   Mesh mesh;                     ///< welded, in m, named after the path
-  std::string warning;           ///< empty, or why the size is unlikely and which unit would make it likely
+  std::string warning;           ///< empty, or what of the file is not read, and why its size is unlikely and which unit
+                                 ///< would make it likely
   int triangles_in_file = 0;     ///< polygons count as the triangles they were cut into
   int degenerate_triangles = 0;  ///< dropped: two corners in one place
   int repeated_triangles = 0;    ///< dropped: the same corners as another triangle

@@ -17,7 +17,7 @@ Mesh parse_obj(std::string_view content, const std::string& name);
 Mesh parse_stl(std::string_view content, const std::string& name);
 Mesh parse_ply(std::string_view content, const std::string& name);
 
-/// glTF, COLLADA and 3MF: loads the module tendril_import.so when first called. Nothing when `context` says stop.
+/// glTF, COLLADA, 3MF and X3D: loads the module tendril_import.so when first called. Nothing when `context` says stop.
 Mesh import_by_module(const std::string& path, const RunContext& context);
 
 /// What the module exports under the name `tendril_import_mesh`: fills `mesh`, or `error` and returns false. Polls the

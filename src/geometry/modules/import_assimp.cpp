@@ -1,4 +1,4 @@
-// The module tendril_import.so: glTF, COLLADA and 3MF by assimp. Nothing else of the project links assimp.
+// The module tendril_import.so: glTF, COLLADA, 3MF and X3D by assimp. Nothing else of the project links assimp.
 
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>

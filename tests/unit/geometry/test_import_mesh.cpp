@@ -217,7 +217,7 @@ TEST_CASE("broken files say what is wrong with them", "[import]") {
   CHECK_THROWS_WITH(load_mesh(folder / "", 1), EndsWith("it is a folder, not a file"));
   CHECK_THROWS_WITH(load_mesh("", 1), "mesh '': no file name was given");
   CHECK_THROWS_WITH(load_mesh("/dev/null", 1), "mesh '/dev/null': it is not a regular file");
-  says("bay.wrl", "#VRML", "files of the suffix '.wrl' are not read; what is read: .obj, .stl, .ply, .gltf, .glb, .dae, .3mf");
+  says("bay.step", "ISO-10303-21", "files of the suffix '.step' are not read; what is read: .obj, .stl, .ply, .gltf, .glb, .dae, .3mf, .wrl, .vrml, .x3d");
   says("bay", "x", "a name without a suffix; what is read: .obj");
   for (const std::string& suffix : mesh_suffixes()) {
     says("empty" + suffix, "", "the file is empty");
