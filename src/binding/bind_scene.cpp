@@ -1,5 +1,6 @@
 // scene: the world. Obstacles, rods in their places, loads, and the solve.
 #include "binding/bind_branch.h"
+#include "binding/bind_import.h"
 #include "binding/bind_motion.h"
 #include "binding/bind_obstacle.h"
 #include "binding/bind_placed_robot.h"
@@ -220,6 +221,7 @@ void bind_scene(lua_State* L) {
                          .example = "local s = scene.new{gravity = {0, 0, -9.81}}\nprint(s)"},
                  [](const Options& o) { return std::make_shared<Scene>(o.maybe<Vec3>("gravity").value_or(Vec3::Zero())); });
   bind_mesh(L, scene);
+  add_import(L, scene);
   add_solids(L, scene);
 }
 

@@ -2,6 +2,7 @@
 // fixings and protections. As it stands in the file, in SI units; what is sound of it is judged later (centre_line.h).
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -76,6 +77,7 @@ struct HarnessFile {
   std::vector<HarnessNode> nodes;
   std::vector<HarnessSegment> segments;
   std::vector<HarnessWire> wires;
+  std::shared_ptr<const std::string> content;  ///< of the file, to write it back with what has changed
   std::vector<std::string> skipped;  ///< what was in the file and not taken, one sentence each
 };
 

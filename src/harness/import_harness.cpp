@@ -1,12 +1,15 @@
 #include "harness/import_harness.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <map>
 #include <numbers>
 
 #include "base/error.h"
+#include "base/installation.h"
+#include "base/nearest_name.h"
 #include "base/number_text.h"
 #include "base/write_file.h"
 #include "harness/harness_bundle.h"
@@ -210,6 +213,26 @@ ImportedHarness HarnessImport::run() {
   return std::move(found_);
 }
 
+struct Reader {
+  std::string_view suffix;
+  HarnessFile (*parse)(std::string_view content, const std::string& path);
+};
+constexpr std::array readers = {Reader{".kbl", parse_kbl}};
+
+/// "builtin:t_harness" comes with the program.
+std::string harness_path(const std::string& name) {
+  constexpr std::string_view builtin = "builtin:";
+  if (!name.starts_with(builtin)) return name;
+  const std::vector<std::string> known = {"t_harness"};
+  const std::string wanted = name.substr(builtin.size());
+  if (std::find(known.begin(), known.end(), wanted) == known.end())
+    throw UsageError("scene.import: there is no builtin harness " + unknown_name(wanted, "builtin harnesses", known));
+  const std::string file = wanted + ".kbl", folder = part_folder(Part::assets);
+  if (folder.empty())
+    throw UsageError("scene.import: the file of '" + name + "' is missing (looked for " + part_places(Part::assets, file) + ")");
+  return folder + "/" + file;
+}
+
 }  // namespace
 
 std::vector<double> ImportedHarness::wire_lengths() const {
@@ -226,11 +249,22 @@ ImportedHarness import_harness(HarnessFile file, const HarnessImportOptions& opt
   return HarnessImport(std::move(file), options, scene).run();
 }
 
-HarnessFile read_harness(const std::string& path) {
-  std::string suffix = path.substr(std::min(path.size(), path.find_last_of("./") == path.npos ? path.size() : path.find_last_of("./")));
+HarnessFile read_harness(const std::string& name) {
+  const std::string path = harness_path(name);
+  const std::size_t dot = path.find_last_of("./");
+  std::string suffix = dot == path.npos || path[dot] == '/' ? "" : path.substr(dot);
   std::transform(suffix.begin(), suffix.end(), suffix.begin(), [](unsigned char c) { return std::tolower(c); });
-  if (suffix == ".kbl") return parse_kbl(read_file(path), path);
-  throw UsageError("scene.import: " + path + ": files ending in '" + suffix + "' are not harness files; expected .kbl");
+  const auto reader = std::find_if(readers.begin(), readers.end(), [&](const Reader& r) { return suffix == r.suffix; });
+  if (reader == readers.end()) {
+    std::string known;
+    for (const Reader& r : readers) known += (known.empty() ? "" : ", ") + std::string(r.suffix);
+    throw UsageError("scene.import: '" + name + "': " + (suffix.empty() ? "a name without a suffix" : "'" + suffix + "'") +
+                     " is no harness file; expected " + known);
+  }
+  auto content = std::make_shared<const std::string>(read_file(path));
+  HarnessFile file = reader->parse(*content, name);
+  file.content = std::move(content);
+  return file;
 }
 
 }  // namespace tendril

@@ -20,7 +20,7 @@ enum class HarnessClip { fixed, slide, swivel, none };
 
 struct HarnessImportOptions {
   Vec3 gravity = Vec3::Zero();    ///< m/s^2
-  HarnessShape shape = HarnessShape::straight;
+  HarnessShape shape = HarnessShape::drawn;
   HarnessClip clips = HarnessClip::fixed;
   std::optional<double> slip;     ///< of the wires in their bundle, see BundleOptions; unset: its default
   double element = 25e-3;         ///< m, longest element of a rod
@@ -58,7 +58,8 @@ struct ImportedHarness {
 /// no segment is sound.
 ImportedHarness import_harness(HarnessFile file, const HarnessImportOptions& options, Scene& scene);
 
-/// Reads the file in the format of its suffix (.kbl). Throws UsageError as the readers do.
-HarnessFile read_harness(const std::string& path);
+/// Reads a file in the format of its suffix (.kbl), or "builtin:t_harness", which comes with the program. Throws UsageError as
+/// the readers do, and for other suffixes.
+HarnessFile read_harness(const std::string& name);
 
 }  // namespace tendril
