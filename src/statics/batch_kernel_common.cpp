@@ -3,6 +3,7 @@
 #include <string_view>
 #include <type_traits>
 
+#include "base/instruction_sets.h"
 #include "statics/batch_iteration.h"
 
 namespace tendril {
@@ -27,8 +28,8 @@ const BatchKernel* choose() {
 
 const BatchKernel* batch_kernel(InstructionSet set) {
 #if defined(__x86_64__)
-  if (set == InstructionSet::avx512) return __builtin_cpu_supports("x86-64-v4") ? &batch_kernel_avx512 : nullptr;
-  if (set == InstructionSet::avx2) return __builtin_cpu_supports("x86-64-v3") ? &batch_kernel_avx2 : nullptr;
+  if (set == InstructionSet::avx512) return runs_x86_64_v4() ? &batch_kernel_avx512 : nullptr;
+  if (set == InstructionSet::avx2) return runs_x86_64_v3() ? &batch_kernel_avx2 : nullptr;
 #endif
   return set == InstructionSet::common ? &common : nullptr;
 }

@@ -1,6 +1,7 @@
 // The kernel compiled like the rest of the program, and the choice between the kernels.
 #define TENDRIL_LANES_NAMESPACE tendril_envelope_common
 
+#include "base/instruction_sets.h"
 #include "method/envelope/kernel_loops.h"
 
 namespace tendril::envelope {
@@ -13,8 +14,8 @@ constexpr Kernel common = tendril_envelope_common::kernel_named("common");
 
 const Kernel* kernel_for(InstructionSet set) {
 #if defined(__x86_64__)
-  if (set == InstructionSet::avx512) return __builtin_cpu_supports("x86-64-v4") ? &kernel_avx512 : nullptr;
-  if (set == InstructionSet::avx2) return __builtin_cpu_supports("x86-64-v3") ? &kernel_avx2 : nullptr;
+  if (set == InstructionSet::avx512) return runs_x86_64_v4() ? &kernel_avx512 : nullptr;
+  if (set == InstructionSet::avx2) return runs_x86_64_v3() ? &kernel_avx2 : nullptr;
 #endif
   return set == InstructionSet::common ? &common : nullptr;
 }
