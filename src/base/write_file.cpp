@@ -11,6 +11,7 @@
 #include <iterator>
 
 #include "base/error.h"
+#include "base/file_access.h"
 #include "base/processes.h"
 
 namespace tendril {
@@ -40,9 +41,10 @@ bool write_all(int file, std::string_view content) {
 
 }  // namespace
 
-void write_file(const std::string& path, std::string_view content) {
+void write_file(const std::string& name, std::string_view content) {
   if (!is_first_process()) return;
-  if (path.empty()) throw UsageError("cannot write a file without a name");
+  if (name.empty()) throw UsageError("cannot write a file without a name");
+  const std::string path = writable_path(name);
   make_folder_of(path);
   if (std::filesystem::is_directory(path)) fail("cannot write", path, "it is a folder");
   std::string temporary = path + ".XXXXXX";
@@ -59,7 +61,8 @@ void write_file(const std::string& path, std::string_view content) {
   }
 }
 
-std::string read_file(const std::string& path) {
+std::string read_file(const std::string& name) {
+  const std::string path = readable_path(name);
   if (std::filesystem::is_directory(path)) fail("cannot read", path, "it is a folder");
   std::ifstream in(path, std::ios::binary);
   if (!in) fail("cannot read", path, std::strerror(errno));

@@ -1,4 +1,4 @@
-// Files appear whole or not at all.
+// Files appear whole or not at all. Both directions keep to what the program may use (base/file_access.h).
 #pragma once
 
 #include <string>

@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <sstream>
 
+#include "base/file_access.h"
+#include "base/printable.h"
 #include "base/write_file.h"
 #include "geometry/mesh_file.h"
 #include "geometry/read_vrml.h"
@@ -73,6 +75,7 @@ Mesh parsed(const std::string& path, const std::string& suffix, const RunContext
 void check_readable(const std::string& path) {
   std::error_code error;
   if (path.empty()) fail_mesh(path, "no file name was given");
+  readable_path(path);  // before anything is told about a file
   if (std::filesystem::is_directory(path, error)) fail_mesh(path, "it is a folder, not a file");
   if (!std::filesystem::exists(path, error)) fail_mesh(path, "there is no such file");
   if (!std::filesystem::is_regular_file(path, error)) fail_mesh(path, "it is not a regular file");
@@ -80,7 +83,7 @@ void check_readable(const std::string& path) {
 
 }  // namespace
 
-void fail_mesh(const std::string& name, const std::string& why) { throw UsageError("mesh '" + name + "': " + why); }
+void fail_mesh(const std::string& name, const std::string& why) { throw UsageError("mesh '" + name + "': " + printable(why)); }
 
 const std::vector<std::string>& mesh_suffixes() {
   static const std::vector<std::string> suffixes = {".obj", ".stl", ".ply", ".gltf", ".glb", ".dae", ".3mf", ".wrl", ".vrml", ".x3d"};

@@ -1,4 +1,5 @@
 // Loads the assimp module when a file first needs it, so that no one else pays for assimp.
+#include "base/file_access.h"
 #include "base/load_module.h"
 #include "geometry/mesh_file.h"
 
@@ -10,7 +11,7 @@ Mesh import_by_module(const std::string& path, const RunContext& context) {
       reinterpret_cast<ImportMeshFunction*>(module_entry("mesh import", "tendril_import.so", "tendril_import_mesh"));
   Mesh mesh;
   std::string error;
-  if (!import(path.c_str(), context, mesh, error)) fail_mesh(path, error);
+  if (!import(path.c_str(), may_read, context, mesh, error)) fail_mesh(path, error);
   return mesh;
 }
 

@@ -21,8 +21,10 @@ Mesh parse_ply(std::string_view content, const std::string& name);
 Mesh import_by_module(const std::string& path, const RunContext& context);
 
 /// What the module exports under the name `tendril_import_mesh`: fills `mesh`, or `error` and returns false. Polls the
-/// context; stopped by it, it returns true with an empty mesh.
-using ImportMeshFunction = bool(const char* path, const RunContext& context, Mesh& mesh, std::string& error);
+/// context; stopped by it, it returns true with an empty mesh. Other files that the file names are opened where `may_read`
+/// says so.
+using ImportMeshFunction = bool(const char* path, bool (*may_read)(const std::string& path), const RunContext& context, Mesh& mesh,
+                                std::string& error);
 
 /// Cuts a polygon of three or more corners, given by their vertices' indices, into triangles, along its own sides only:
 /// ears are cut off, so that hollow corners stay hollow. Appends count - 2 triangles.

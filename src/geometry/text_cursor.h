@@ -2,7 +2,9 @@
 #pragma once
 
 #include <charconv>
+#include <limits>
 #include <string_view>
+#include <type_traits>
 
 namespace tendril {
 
@@ -57,8 +59,10 @@ class TextCursor {
     const char* first = at_ < end_ && *at_ == '+' ? at_ + 1 : at_;
     const auto [after, error] = std::from_chars(first, end_, value);
     if (error == std::errc::result_out_of_range && after != first) {
-      // Too small or too large for the type: as good as nothing, or not finite, for whoever checks.
-      value = shrinks(first, after) ? Number{} : static_cast<Number>(1e300 * 1e300);
+      // Too small or too large for the type: as good as nothing; or not finite, and of whole numbers the largest, for whoever checks.
+      using Limits = std::numeric_limits<Number>;
+      if constexpr (std::is_integral_v<Number>) value = *first == '-' ? Limits::min() : Limits::max();
+      else value = shrinks(first, after) ? Number{} : Limits::infinity();
     } else if (error != std::errc{}) {
       return false;
     }

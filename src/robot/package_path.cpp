@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/file_access.h"
 #include "base/write_file.h"
 
 namespace fs = std::filesystem;
@@ -20,7 +21,7 @@ struct Searched {
 Searched package_folders(const std::string& package, const fs::path& start) {
   Searched found;
   std::error_code error;
-  for (fs::path folder = start;; folder = folder.parent_path()) {
+  for (fs::path folder = start; may_read(folder.string()); folder = folder.parent_path()) {
     const fs::path xml = folder / "package.xml";
     if (fs::is_regular_file(xml, error) && package_name(read_file(xml.string())) == package) {
       found.folders.insert(found.folders.begin(), folder);
@@ -36,7 +37,7 @@ Searched package_folders(const std::string& package, const fs::path& start) {
 
 bool is_file(const fs::path& path) {
   std::error_code error;
-  return fs::is_regular_file(path, error);
+  return may_read(path.string()) && fs::is_regular_file(path, error);
 }
 
 std::string in_package(const std::string& name, const fs::path& start) {

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "base/error.h"
+#include "base/file_access.h"
 #include "base/nearest_name.h"
 #include "base/number_text.h"
 #include "base/units.h"
@@ -227,6 +228,7 @@ JointPath read_program(const Robot& robot, std::string_view text, const std::str
 
 JointPath read_program_file(const Robot& robot, const std::string& path, Dialect dialect, const AxisMap& axes, bool degrees) {
   std::error_code error;
+  readable_path(path);  // before anything is told about a file
   if (!std::filesystem::is_regular_file(path, error)) throw UsageError("program '" + path + "': there is no such file");
   std::string text = read_file(path);
   if (dialect == Dialect::krl)

@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "base/error.h"
+#include "base/printable.h"
 #include "base/units.h"
 
 namespace tendril::program {
@@ -31,7 +32,7 @@ std::string code_of(std::string_view line, std::string_view comment) {
 
 void Source::fail(std::size_t offset, const std::string& why) const {
   const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(std::min(offset, text.size())), '\n');
-  throw UsageError("program '" + name + ":" + std::to_string(line) + "': " + why);
+  throw UsageError("program '" + name + ":" + std::to_string(line) + "': " + printable(why));
 }
 
 std::string fixed(double value, int digits) {
@@ -107,15 +108,18 @@ std::vector<Statement> statements_of(const Source& source, std::string_view comm
 }
 
 double number(const Source& source, std::string_view text, std::size_t offset) {
-  const std::string word = trimmed(text);
-  if (lowered(word).starts_with("d2r(") && word.back() == ')')
-    return number(source, std::string_view(word).substr(4, word.size() - 5), offset) * units::deg;
+  std::string word = trimmed(text);
+  double unit = 1;
+  if (lowered(std::string_view(word).substr(0, 4)) == "d2r(" && word.back() == ')') {
+    word = trimmed(std::string_view(word).substr(4, word.size() - 5));
+    unit = units::deg;
+  }
   const char* first = word.data() + (word.starts_with('+') ? 1 : 0);
   double value = 0;
   const auto [end, error] = std::from_chars(first, word.data() + word.size(), value);
   if (word.empty() || error != std::errc() || end != word.data() + word.size() || !std::isfinite(value))
     source.fail(offset, "got '" + word + "', expected a finite number");
-  return value;
+  return unit * value;
 }
 
 std::vector<double> number_list(const Source& source, std::string_view text, std::size_t offset) {

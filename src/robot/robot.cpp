@@ -78,12 +78,15 @@ void Robot::check_joint(int k) {
   Joint& joint = joints_[k];
   const auto fail = [&](const std::string& why) { throw UsageError(of_joint(name_, joint) + why); };
   if (joint.parent < 0 || joint.parent > k) fail("it must hang on an earlier link");
+  const auto is_far = [](const Vec3& v) { return !(v.cwiseAbs().maxCoeff() <= largest_number); };
   if (!all_finite(joint.origin.at) || !all_finite(joint.origin.rotation.coeffs())) fail("its origin is not finite");
+  if (is_far(joint.origin.at)) fail("its origin lies more than " + number_text(largest_number) + " m away");
   if (std::abs(joint.origin.rotation.norm() - 1) > 1e-6) fail("the rotation of its origin is not a unit quaternion");
   joint.origin.rotation.normalize();
   if (joint.kind == JointKind::fixed) return;
 
   if (!all_finite(joint.axis) || !(joint.axis.norm() > 1e-9)) fail("its axis must be a finite vector other than zero");
+  if (is_far(joint.axis)) fail("its axis has a number beyond " + number_text(largest_number));
   joint.axis.normalize();
   if (std::isnan(joint.lower) || std::isnan(joint.upper)) fail("its limits are not numbers");
   if (joint.lower > joint.upper)
@@ -98,6 +101,8 @@ void Robot::check_joint(int k) {
   if (followed.kind == JointKind::fixed) fail("it mimics '" + followed.name + "', which is fixed");
   if (followed.mimics != -1) fail("it mimics '" + followed.name + "', which mimics another joint itself");
   if (!std::isfinite(joint.factor) || !std::isfinite(joint.shift)) fail("what it multiplies and adds by mimicking is not finite");
+  if (!(std::max(std::abs(joint.factor), std::abs(joint.shift)) <= largest_number))
+    fail("what it multiplies and adds by mimicking lies beyond " + number_text(largest_number));
 }
 
 void Robot::number_variables() {

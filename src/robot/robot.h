@@ -57,8 +57,11 @@ class Robot {
  public:
   using JointValues = std::span<const double>;
 
+  /// No place (m), axis, factor or shift of a joint may have a number beyond this: the next sums would leave the finite ones.
+  static constexpr double largest_number = 1e9;
+
   /// links.size() must be joints.size() + 1. Throws UsageError naming the robot and the joint or link: names given twice or
-  /// empty, a joint that hangs on a later link, numbers that are not finite, limits in the wrong order, axes of no length
+  /// empty, a joint that hangs on a later link, numbers that are not finite or beyond largest_number, limits in the wrong order, axes of no length
   /// (they are made unit), a joint that mimics itself, a fixed one or one that mimics.
   Robot(std::string name, std::vector<Link> links, std::vector<Joint> joints);
 

@@ -10,7 +10,9 @@
 #include <set>
 
 #include "base/error.h"
+#include "base/file_access.h"
 #include "base/nearest_name.h"
+#include "base/printable.h"
 #include "base/write_file.h"
 #include "robot/package_path.h"
 
@@ -70,7 +72,7 @@ class UrdfReader {
 void UrdfReader::fail_at(std::ptrdiff_t offset, const std::string& why) const {
   const auto end = text_.begin() + std::clamp<std::ptrdiff_t>(offset, 0, static_cast<std::ptrdiff_t>(text_.size()));
   const std::string line = offset >= 0 ? ":" + std::to_string(1 + std::count(text_.begin(), end, '\n')) : "";
-  throw UsageError("robot '" + path_ + line + "': " + why);
+  throw UsageError("robot '" + path_ + line + "': " + printable(why));
 }
 
 Node UrdfReader::root(pugi::xml_document& document) const {
@@ -115,7 +117,10 @@ Vec3 UrdfReader::numbers(Node node, const char* name) const {
   }
   if (words.size() != 3)
     fail(node, std::string("'") + name + "' of <" + node.name() + "> is '" + text + "', expected three numbers");
-  return {number(node, name, words[0]), number(node, name, words[1]), number(node, name, words[2])};
+  const Vec3 read(number(node, name, words[0]), number(node, name, words[1]), number(node, name, words[2]));
+  if (!(read.cwiseAbs().maxCoeff() <= Robot::largest_number))
+    fail(node, std::string("'") + name + "' of <" + node.name() + "> is '" + text + "', expected numbers of at most 1e9");
+  return read;
 }
 
 // <origin xyz= rpy=>: turns about the fixed x, y, z axes, in this order.
@@ -341,6 +346,7 @@ std::shared_ptr<const Robot> parse_urdf(const std::string& text, const std::stri
 std::shared_ptr<const Robot> load_urdf(const std::string& path) {
   std::error_code error;
   if (path.empty()) throw UsageError("robot: no file name was given");
+  readable_path(path);  // before anything is told about a file
   if (std::filesystem::is_directory(path, error)) throw UsageError("robot '" + path + "': it is a folder, not a file");
   if (!std::filesystem::exists(path, error)) throw UsageError("robot '" + path + "': there is no such file");
   return parse_urdf(read_file(path), path);

@@ -7,12 +7,14 @@
 
 #include "base/error.h"
 #include "base/number_text.h"
+#include "base/printable.h"
 #include "base/write_file.h"
 
 namespace tendril {
 namespace {
 
 constexpr double largest_quaternion_error = 1e-2;  // of its length: more is no rotation
+constexpr double largest_number = 1e9;             // of any kind: the difference of two is finite, as are its powers
 
 std::string_view trimmed(std::string_view text) {
   const std::string_view blank = " \t\r\"";
@@ -48,7 +50,8 @@ class Columns {
     double value = 0;
     const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
     if (cell.empty() || error != std::errc() || end != cell.data() + cell.size() || !std::isfinite(value))
-      throw UsageError(where + ": got '" + std::string(cell) + "', expected a finite number");
+      throw UsageError(where + ": got '" + printable(cell) + "', expected a finite number");
+    if (std::abs(value) > largest_number) throw UsageError(where + ": got " + number_text(value) + ", expected at most 1e9");
     return value;
   }
 

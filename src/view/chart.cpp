@@ -129,16 +129,33 @@ class Temporary {
  public:
   Temporary() {
     std::string name = (std::filesystem::temp_directory_path() / "tendril-chart-XXXXXX").string();
-    const int file = mkstemp(name.data());
-    if (file < 0) refuse(std::string("no temporary file: ") + std::strerror(errno));
-    close(file);
+    file_ = mkostemp(name.data(), O_CLOEXEC);
+    if (file_ < 0) refuse(std::string("no temporary file: ") + std::strerror(errno));
     path = name;
   }
-  ~Temporary() { unlink(path.c_str()); }
+  ~Temporary() {
+    close(file_);
+    unlink(path.c_str());
+  }
   Temporary(const Temporary&) = delete;
   Temporary& operator=(const Temporary&) = delete;
 
+  /// What was written to it, read without its name: the folder of temporary files may be closed to the program.
+  std::string content() const {
+    std::string bytes;
+    char buffer[65536];
+    for (ssize_t got; (got = pread(file_, buffer, sizeof buffer, static_cast<off_t>(bytes.size()))) != 0;) {
+      if (got < 0 && errno == EINTR) continue;
+      if (got < 0) refuse(std::string("cannot read what gnuplot drew: ") + std::strerror(errno));
+      bytes.append(buffer, static_cast<std::size_t>(got));
+    }
+    return bytes;
+  }
+
   std::string path;
+
+ private:
+  int file_ = -1;
 };
 
 void check_series(const Chart& chart, const ChartSeries& series) {
@@ -203,7 +220,7 @@ ChartReport save(const std::string& path, const RunContext& context, Make make_s
   if (const auto stop = gnuplot.run(script.text, context)) {
     report.status = *stop;
   } else {
-    const std::string bytes = read_file(drawn.path);
+    const std::string bytes = drawn.content();
     if (!gnuplot.good() || bytes.empty()) refuse("gnuplot failed: " + gnuplot.said());
     write_file(path, bytes);
   }

@@ -3,9 +3,11 @@
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <assimp/version.h>
-
+#include <assimp/DefaultIOSystem.h>
 #include <assimp/Importer.hpp>
 #include <assimp/ProgressHandler.hpp>
+
+#include <cstring>
 
 #include <Eigen/LU>
 
@@ -25,6 +27,20 @@ class Progress final : public Assimp::ProgressHandler {
 
  private:
   const RunContext& context_;
+};
+
+// A file can name others, such as the buffers of a glTF file: those that may not be read are not there.
+class Files final : public Assimp::DefaultIOSystem {
+ public:
+  explicit Files(bool (*may_read)(const std::string&)) : may_read_(may_read) {}
+  bool Exists(const char* path) const override { return may_read_(path) && DefaultIOSystem::Exists(path); }
+  Assimp::IOStream* Open(const char* path, const char* mode) override {
+    const bool reading = mode[0] == 'r' && !std::strchr(mode, '+');
+    return reading && may_read_(path) ? DefaultIOSystem::Open(path, mode) : nullptr;
+  }
+
+ private:
+  bool (*may_read_)(const std::string&);
 };
 
 Eigen::Matrix4d matrix(const aiMatrix4x4& m) {
@@ -70,9 +86,11 @@ void add_nodes(const aiScene& scene, const Eigen::Matrix4d& outside, Mesh& mesh)
 
 }  // namespace
 
-extern "C" bool tendril_import_mesh(const char* path, const RunContext& context, Mesh& mesh, std::string& error) try {
+extern "C" bool tendril_import_mesh(const char* path, bool (*may_read)(const std::string&), const RunContext& context, Mesh& mesh,
+                                    std::string& error) try {
   Assimp::Importer importer;
   importer.SetProgressHandler(new Progress(context));
+  importer.SetIOHandler(new Files(may_read));
   // Axes are left as they are in the file.
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
   const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate);

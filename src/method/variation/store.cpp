@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "base/error.h"
+#include "base/file_access.h"
 #include "base/load_module.h"
 #include "method/variation/fingerprint.h"
 
@@ -14,7 +15,8 @@ namespace {
 constexpr int version = 1;
 constexpr double most_seconds = 0.25;  // between two commits
 
-std::unique_ptr<Database> open(const std::string& path) {
+std::unique_ptr<Database> open(const std::string& name) {
+  const std::string path = writable_path(name);
   static const auto entry = reinterpret_cast<OpenDatabase>(module_entry("method.variation: store", "tendril_store.so", database_entry));
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
   std::error_code error;

@@ -142,6 +142,8 @@ TEST_CASE("what is no robot is refused with the joint's name", "[robot]") {
   refused("velocity is nan", [&](Joint& j) { j.velocity = nan; });
   refused("velocity is -1", [](Joint& j) { j.velocity = -1; });
   refused("origin is not finite", [&](Joint& j) { j.origin.at.x() = inf; });
+  refused("origin lies more than 1e+09 m away", [](Joint& j) { j.origin.at.z() = -1e10; });
+  refused("axis has a number beyond 1e+09", [](Joint& j) { j.axis = {0, 1e200, 0}; });
   refused("unit quaternion", [](Joint& j) { j.origin.rotation.coeffs() *= 2; });
   refused("earlier link", [](Joint& j) { j.parent = 1; });
   refused("mimic another joint", [](Joint& j) { j.mimics = 0; });

@@ -134,6 +134,7 @@ TEST_CASE("urdf: every mistake is told with file and line", "[robot]") {
   refused(joint(ends + limit + "\n<axis xyz='0 0 1 2'/>"), ":6", "three numbers");
   refused(joint(ends + limit + "\n<axis xyz='0 x 1'/>"), ":6", "finite number");
   refused(joint(ends + limit + "\n<origin rpy='0 0 inf'/>"), ":6", "finite number");
+  refused(joint(ends + limit + "\n<origin rpy='0 0 1e200'/>"), ":6", "expected numbers of at most 1e9");
   refused(joint(ends + limit + "\n<mimic joint='k'/>"), ":6", "unknown joint 'k'");
   refused(joint(ends + limit + "\n<mimic joint='j'/>"), "", "mimic another joint");
   refused(two_links + "</robot>", ":3", "no joint carries 'a' nor 'b'");

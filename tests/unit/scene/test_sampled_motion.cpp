@@ -32,6 +32,7 @@ TEST_CASE("a sampled motion that makes no sense says where", "[motion]") {
   refused("t,x,y,z\n0,0,zero,0", "line 2: got 'zero', expected a finite number");
   refused("t,x,y,z\n0,0,0", "line 2: got ''");
   refused("t,x,y,z\n0,0,0,nan", "expected a finite number");
+  refused("t,x,y,z\n0,0,0,-1e10", "got -1e+10, expected at most 1e9");
   refused("t,x,y,z\n1,0,0,0\n1,0,0,0", "line 3: time 1 s does not rise above 1 s");
   refused("t,x,y,z,qw,qx,qy,qz\n0,0,0,0,2,0,0,0", "the quaternion has length 2, expected 1");
   refused("t,x,y,z,qw,qx,qy,qz,rx,ry,rz\n", "both a quaternion and a rotation vector");
