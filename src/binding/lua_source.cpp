@@ -2,6 +2,7 @@
 // Lua: neither is loaded.
 #include <cstring>
 
+#include "base/file_access.h"
 #include "binding/lua_context.h"
 
 namespace tendril::lua {
@@ -37,16 +38,16 @@ int dofile(lua_State* L) {
   return finish_dofile(L, LUA_OK, 0);
 }
 
-/// The searcher of `require` for Lua modules: package.path, text only.
+/// The searcher of `require` for Lua modules: package.path, text only. Upvalues: the table `package`, its function searchpath.
 int search_module(lua_State* L) {
   const char* name = luaL_checkstring(L, 1);
-  lua_getglobal(L, "package");
-  lua_getfield(L, -1, "searchpath");
+  lua_pushvalue(L, lua_upvalueindex(2));
   lua_pushstring(L, name);
-  if (lua_getfield(L, -3, "path") != LUA_TSTRING) return luaL_error(L, "'package.path' must be a string");
+  if (lua_getfield(L, lua_upvalueindex(1), "path") != LUA_TSTRING) return luaL_error(L, "'package.path' must be a string");
   lua_call(L, 2, 2);
   if (lua_isnil(L, -2)) return 1;  // why not, for require's own message
   const char* file = lua_tostring(L, -2);
+  if (!may_read(file)) return luaL_error(L, "module '%s' lies outside of what may be read", name);
   if (luaL_loadfilex(L, file, "t") != LUA_OK)
     return luaL_error(L, "error loading module '%s' from file '%s':\n\t%s", name, file, lua_tostring(L, -1));
   lua_pushstring(L, file);
@@ -71,7 +72,9 @@ void accept_source_only(lua_State* L) {
 
   lua_getglobal(L, "package");
   lua_getfield(L, -1, "searchers");
-  lua_pushcfunction(L, search_module);
+  lua_pushvalue(L, -2);
+  lua_getfield(L, -3, "searchpath");
+  lua_pushcclosure(L, search_module, 2);
   lua_rawseti(L, -2, 2);
   for (int native = 4; native > 2; --native) {
     lua_pushnil(L);

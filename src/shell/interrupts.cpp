@@ -52,6 +52,11 @@ Interrupts::~Interrupts() {
 
 const std::atomic<bool>& Interrupts::flag() { return pending; }
 
+void Interrupts::strike() noexcept {
+  pending.store(true);
+  if (lua::Context* context = target.load()) lua::interrupt(*context);
+}
+
 void Interrupts::clear() {
   pending.store(false);
   presses.store(0);

@@ -20,6 +20,9 @@ class Interrupts {
 
   /// The interrupt has been dealt with.
   static void clear();
+
+  /// Does what SIGINT does. Async-signal-safe.
+  static void strike() noexcept;
 };
 
 }  // namespace tendril::shell

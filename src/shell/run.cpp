@@ -1,9 +1,6 @@
 #include "shell/run.h"
 
-#include <unistd.h>
-
 #include <algorithm>
-#include <cctype>
 #include <cstdio>
 #include <cstdlib>
 #include <new>
@@ -14,27 +11,22 @@
 #include "shell/arguments.h"
 #include "shell/doctor.h"
 #include "shell/history.h"
+#include "shell/limits.h"
 #include "shell/module_path.h"
 #include "shell/repl.h"
+#include "shell/sandbox.h"
 
 namespace tendril::shell {
 namespace {
 
 constexpr int done = 0, failed = 1, misused = 2, interrupted = 130;
 
-/// Lua's memory: TENDRIL_MEMORY ("512M", "8G"; "0": no limit), else 8 GiB but at most three quarters of the machine's.
-std::size_t memory_limit(bool with_environment) {
-  if (const char* wanted = with_environment ? std::getenv("TENDRIL_MEMORY") : nullptr) {
-    char* unit = nullptr;
-    const double number = std::strtod(wanted, &unit);
-    const std::string known = "kmgt";
-    const auto power = *unit ? known.find(static_cast<char>(std::tolower(static_cast<unsigned char>(*unit)))) : std::string::npos;
-    const bool wrong = unit == wanted || !(number >= 0 && number < 1e15) || (*unit && power == std::string::npos);
-    if (wrong) throw UsageError(std::string("TENDRIL_MEMORY: got '") + wanted + "', expected a size such as 512M or 8G");
-    return static_cast<std::size_t>(std::min(1e18, *unit ? number * double(1ull << (10 * (power + 1))) : number));
-  }
-  const double machine = double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGESIZE));
-  return static_cast<std::size_t>(std::min(8.0 * (1ull << 30), machine > 0 ? 0.75 * machine : 8.0 * (1ull << 30)));
+/// Lua's memory: what the arguments say, else TENDRIL_MEMORY ("512M", "8G"; "0": no limit), else the usual.
+std::size_t lua_memory(const Arguments& arguments) {
+  if (arguments.memory) return *arguments.memory;
+  if (const char* wanted = arguments.ignore_environment ? nullptr : std::getenv("TENDRIL_MEMORY"))
+    return parse_size(wanted, "TENDRIL_MEMORY");
+  return usual_memory_limit();
 }
 
 /// What the protected part of the program works with.
@@ -43,6 +35,7 @@ struct Program {
   const Arguments& arguments;
   int argc;
   char** argv;
+  std::string script_path = {};  ///< of the script's file, where it is one
   int exit_code = done;
 };
 
@@ -94,8 +87,7 @@ bool run_step(Session& session, const Step& step) {
 bool run_script(Program& program) {
   lua_State* L = program.session.state();
   const int script = program.arguments.script;
-  const char* file = script > 0 && !program.arguments.script_is_stdin ? program.argv[script] : nullptr;
-  const int status = luaL_loadfilex(L, file, "t");
+  const int status = luaL_loadfilex(L, program.script_path.empty() ? nullptr : program.script_path.c_str(), "t");
   const int count = status == LUA_OK && script > 0 ? program.argc - script - 1 : 0;
   luaL_checkstack(L, count + 3, "too many arguments to script");
   for (int i = 0; i < count; ++i) lua_pushstring(L, program.argv[script + 1 + i]);
@@ -124,7 +116,7 @@ bool run_all(Program& program) {
   if (a.warnings) lua_warning(L, "@on", 0);
   if (a.version && (!a.interactive || session.terminal().can_edit())) print_version();
   set_arg_table(L, program);
-  set_module_path(L, program);
+  if (!a.sandbox) set_module_path(L, program);
   for (const Step& step : a.steps)
     if (!run_step(session, step)) return false;
   if (a.script > 0 && !run_script(program)) return false;
@@ -142,7 +134,7 @@ int protected_program(lua_State* L) {
   Program& program = *static_cast<Program*>(lua_touserdata(L, 1));
   lua_settop(L, 0);
   const bool good = run_all(program);
-  program.exit_code = good ? done : program.session.was_interrupted() ? interrupted : failed;
+  program.exit_code = good ? done : time_is_over() ? out_of_time : program.session.was_interrupted() ? interrupted : failed;
   return 0;
 }
 
@@ -152,14 +144,27 @@ int run_doctor(const Terminal& terminal) {
   return std::any_of(findings.begin(), findings.end(), [](const Finding& f) { return f.broken; }) ? failed : done;
 }
 
-int run_session(int argc, char** argv, const Arguments& arguments) {
-  Session session(look_at_terminal(), memory_limit(!arguments.ignore_environment));
+int run_session(int argc, char** argv, const Arguments& given) {
+  Arguments arguments = given;
+  if (arguments.sandbox) {
+    if (!arguments.memory) arguments.memory = sandbox_memory;
+    if (!arguments.seconds) arguments.seconds = sandbox_seconds;
+  }
+  if (arguments.memory) limit_memory(*arguments.memory);
+  const Terminal terminal = look_at_terminal();
+  if (arguments.sandbox && terminal.input && arguments.script == 0 && !arguments.has_code)
+    throw UsageError("'--sandbox' needs a script");
+  Session session(terminal, lua_memory(arguments));
+  if (arguments.seconds) limit_time(*arguments.seconds);
   lua_State* L = session.state();
   if (arguments.mode == Arguments::Mode::annotations) {
     std::fputs(lua::annotations(*lua::context(L).registry).c_str(), stdout);
     return done;
   }
   Program program{session, arguments, argc, argv};
+  const bool has_file = arguments.script > 0 && !arguments.script_is_stdin;
+  if (has_file) program.script_path = argv[arguments.script];
+  if (arguments.sandbox) program.script_path = enter_sandbox(L, *arguments.sandbox, program.script_path);
   lua_pushcfunction(L, protected_program);
   lua_pushlightuserdata(L, &program);
   if (lua_pcall(L, 1, 0, 0) != LUA_OK) {

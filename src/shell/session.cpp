@@ -4,6 +4,7 @@
 #include <new>
 
 #include "binding/open.h"
+#include "shell/limits.h"
 
 namespace tendril::shell {
 namespace {
@@ -97,7 +98,10 @@ void Session::tell_error() {
 
 void Session::tell_interrupt() {
   if (terminal_.input && terminal_.messages) std::fputc('\n', stderr);  // behind the terminal's own ^C
-  tell(terminal_, context_.struck_at.empty() ? "interrupted" : context_.struck_at);
+  constexpr std::string_view interrupted = "interrupted";
+  std::string text = context_.struck_at.empty() ? std::string(interrupted) : context_.struck_at;
+  if (time_is_over() && text.ends_with(interrupted)) text.replace(text.size() - interrupted.size(), text.npos, time_limit_text());
+  tell(terminal_, text);
 }
 
 void Session::resume_after_interrupt() {
