@@ -86,19 +86,6 @@ void append_y_up(std::string& out, const Vec3& v) {
   append(out, static_cast<float>(-v.y()));
 }
 
-std::vector<Vec3> smooth_normals(const Mesh& mesh) {
-  std::vector<Vec3> normals(mesh.vertices.size(), Vec3::Zero());
-  for (const auto& [a, b, c] : mesh.triangles) {
-    const Vec3 area = (mesh.vertices[b] - mesh.vertices[a]).cross(mesh.vertices[c] - mesh.vertices[a]);
-    for (const int corner : {a, b, c}) normals[corner] += area;
-  }
-  for (Vec3& normal : normals) {
-    normal.stableNormalize();
-    if (!(std::abs(normal.squaredNorm() - 1) < 1e-6)) normal = Vec3::UnitZ();  // of no triangle with a face
-  }
-  return normals;
-}
-
 std::string glb_header(const Mesh& mesh) {
   Eigen::AlignedBox3f box;  // of the numbers as the file holds them
   for (const Vec3& v : mesh.vertices) box.extend(Eigen::Vector3f(Vec3(v.x(), v.z(), -v.y()).cast<float>()));
@@ -122,6 +109,19 @@ std::string glb_header(const Mesh& mesh) {
 }
 
 }  // namespace
+
+std::vector<Vec3> smooth_normals(const Mesh& mesh) {
+  std::vector<Vec3> normals(mesh.vertices.size(), Vec3::Zero());
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const Vec3 area = (mesh.vertices[b] - mesh.vertices[a]).cross(mesh.vertices[c] - mesh.vertices[a]);
+    for (const int corner : {a, b, c}) normals[corner] += area;
+  }
+  for (Vec3& normal : normals) {
+    normal.stableNormalize();
+    if (!(std::abs(normal.squaredNorm() - 1) < 1e-6)) normal = Vec3::UnitZ();  // of no triangle with a face
+  }
+  return normals;
+}
 
 std::string glb_of(const Mesh& mesh) {
   std::string json = glb_header(mesh);

@@ -24,4 +24,7 @@ std::string obj_of(const Mesh& mesh, double unit = 1);
 /// fit the format's 4 GB is refused.
 std::string glb_of(const Mesh& mesh);
 
+/// Of each vertex, weighted by the area of the triangles around it; z where there are none.
+std::vector<Vec3> smooth_normals(const Mesh& mesh);
+
 }  // namespace tendril

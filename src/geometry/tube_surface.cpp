@@ -105,4 +105,34 @@ Mesh tube_surface(const Curve& curve, const std::vector<double>& rings, double o
   return mesh;
 }
 
+Mesh tube_surface(const std::vector<Frame>& sections, const std::vector<double>& radii, int sides) {
+  if (sections.size() < 2 || radii.size() != sections.size() || sides < 3)
+    throw UsageError("tube: " + std::to_string(sections.size()) + " sections, " + std::to_string(radii.size()) + " radii and " +
+                     std::to_string(sides) + " sides; at least 2 sections, a radius each and 3 sides expected");
+  for (std::size_t i = 0; i < sections.size(); ++i)
+    if (!(std::isfinite(radii[i]) && radii[i] > 0 && sections[i].at.allFinite() && sections[i].rotation.coeffs().allFinite()))
+      throw UsageError("tube: section " + std::to_string(i + 1) + " is not finite, or its radius of " + number_text(radii[i]) +
+                       " m is not above 0");
+  Mesh mesh;
+  mesh.name = "tube";
+  TubeBuilder builder(sides, mesh);
+  int last = -1;
+  for (std::size_t i = 0; i < sections.size(); ++i) {
+    const int next = builder.ring(sections[i], radii[i]);
+    if (last >= 0) builder.wall(last, next, true);
+    last = next;
+  }
+  builder.end(sections.front(), radii.front(), 0, false);
+  builder.end(sections.back(), radii.back(), 0, true);
+  return mesh;
+}
+
+std::vector<int> section_of_vertex(int sections, int sides) {
+  std::vector<int> of;
+  for (int i = 0; i < sections; ++i) of.insert(of.end(), static_cast<std::size_t>(sides), i);
+  of.insert(of.end(), static_cast<std::size_t>(sides + 1), 0);
+  of.insert(of.end(), static_cast<std::size_t>(sides + 1), sections - 1);
+  return of;
+}
+
 }  // namespace tendril

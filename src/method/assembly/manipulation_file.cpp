@@ -1,8 +1,8 @@
 #include "method/assembly/manipulation_file.h"
 
 #include <charconv>
-#include <cstdio>
 
+#include "base/json_text.h"
 #include "base/units.h"
 
 namespace tendril::assembly {
@@ -19,23 +19,6 @@ std::string csv_field(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string quoted = "\"";
   for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
-  return quoted + "\"";
-}
-
-std::string json_string(const std::string& text) {
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') {
-      quoted += '\\';
-      quoted += c;
-    } else if (static_cast<unsigned char>(c) < 0x20) {
-      char code[8];
-      std::snprintf(code, sizeof code, "\\u%04x", static_cast<unsigned>(c));
-      quoted += code;
-    } else {
-      quoted += c;
-    }
-  }
   return quoted + "\"";
 }
 
