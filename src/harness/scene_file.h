@@ -12,7 +12,8 @@
 //   section  {"outer", "inner", "material": {"young", "shear", "density"}, "EA", "GA", "EI", "GJ", "mass"}: from the material alone
 //            the rest follows; with both they must agree
 //   shape    {"kind": "polyline", "points"}, {"kind": "pcc", "points", "radii"}, {"kind": "spline", "points", "start", "finish"},
-//            {"kind": "helix", "radius", "pitch", "turns", "left_handed"}
+//            {"kind": "helix", "radius", "pitch", "turns", "left_handed"}, {"kind": "frames", "stations": [[s, x, y, z, qw, qx, qy,
+//            qz], ...]}: the sections' frames at arc lengths from 0 to the rod's length
 //   hold     {"at", "frame", "position", "orientation", "turns", "slide"}; with "robot" and "link" the hold goes with the link, and
 //            the frame is in its axes
 //   load     {"at", "force", "moment"}

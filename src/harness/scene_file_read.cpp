@@ -62,8 +62,22 @@ Section read_section(const JsonPlace& place) {
   return section;
 }
 
-Curve read_curve(const JsonPlace& place) {
-  const int kind = one_of(place["kind"], {"polyline", "pcc", "spline", "helix"});
+FrameShape read_frame_shape(const JsonPlace& place) {
+  place.only({"kind", "stations"});
+  FrameShape shape;
+  for (const JsonPlace& station : place["stations"].items()) {
+    const std::vector<double> n = station.numbers();
+    if (n.size() != 8) station.fail("got a list of " + std::to_string(n.size()) + ", expected 8 numbers: s, x, y, z, qw, qx, qy, qz");
+    const Quat rotation(n[4], n[5], n[6], n[7]);
+    if (!(std::abs(rotation.norm() - 1) <= 1e-9))
+      station.fail("its quaternion's length is " + number_text(rotation.norm()) + ", expected 1");
+    shape.s.push_back(n[0]);
+    shape.frames.push_back({{n[1], n[2], n[3]}, rotation});
+  }
+  return shape;
+}
+
+Curve read_curve(const JsonPlace& place, int kind) {
   if (kind == 3) {
     place.only({"kind", "radius", "pitch", "turns", "left_handed"});
     return place.guarded([&] {
@@ -88,6 +102,18 @@ Curve read_curve(const JsonPlace& place) {
   return place.guarded([&] { return Curve::spline(points, ends); });
 }
 
+void read_shape(const JsonPlace& place, double length, Rod& rod) {
+  const int kind = one_of(place["kind"], {"polyline", "pcc", "spline", "helix", "frames"});
+  if (kind == 4) {
+    rod.length = length;
+    return place.guarded([&] { form(rod, read_frame_shape(place)); });
+  }
+  const Curve curve = read_curve(place, kind);
+  form(rod, curve);
+  if (std::abs(curve.length() - length) > 1e-9 * curve.length())
+    place.fail("it is " + number_text(curve.length()) + " m long, but the rod's length is " + number_text(length) + " m");
+}
+
 Rod read_design(const JsonPlace& place) {
   Rod rod;
   const double length = place["length"].number();
@@ -96,12 +122,7 @@ Rod read_design(const JsonPlace& place) {
     part.only({"upto", "section"});
     rod.parts.push_back({part["upto"].number(), read_section(part["section"])});
   }
-  if (place.has("shape")) {
-    const Curve curve = read_curve(place["shape"]);
-    form(rod, curve);
-    if (std::abs(curve.length() - length) > 1e-9 * curve.length())
-      place["length"].fail("got " + number_text(length) + " m, but the shape is " + number_text(curve.length()) + " m long");
-  }
+  if (place.has("shape")) read_shape(place["shape"], length, rod);
   rod.length = length;
   place.guarded([&] { rod.check(); });
   if (const Curve* curve = curve_of(rod)) place.guarded([&] { check_bends(rod, *curve, "rod.new"); });

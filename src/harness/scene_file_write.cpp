@@ -145,7 +145,18 @@ Json json_of(const Curve& curve) {
   return members;
 }
 
+Json json_of(const FrameShape& shape) {
+  Json::List stations;
+  for (std::size_t k = 0; k < shape.s.size(); ++k) {
+    const Vec3& p = shape.frames[k].at;
+    const Quat& q = shape.frames[k].rotation;
+    stations.emplace_back(json_of({shape.s[k], p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z()}));
+  }
+  return Members().add("kind", "frames").add("stations", Json{std::move(stations)});
+}
+
 Json shape_of(const PlacedRod& placed) {
+  if (const FrameShape* frames = frames_of(placed.rod())) return json_of(*frames);
   const Curve* curve = curve_of(placed.rod());
   const auto fail = [&](const std::string& why) {
     throw UsageError("scene:save: rod '" + placed.name() + "' has a shape that a scene file cannot hold: " + why);
@@ -154,6 +165,7 @@ Json shape_of(const PlacedRod& placed) {
   const std::string kind = curve->kind();
   if (kind != "polyline" && kind != "pcc" && kind != "spline" && kind != "helix") fail("a curve of kind \"" + kind + '"');
   if (std::abs(placed.rod().length - curve->length()) > 1e-9 * curve->length()) fail("its curve is not as long as the rod");
+  check_bends(placed.rod(), *curve, "scene:save: rod '" + placed.name() + "'");
   return json_of(*curve);
 }
 

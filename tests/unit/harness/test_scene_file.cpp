@@ -213,7 +213,7 @@ TEST_CASE("scene file: what is wrong is told by its place") {
   CHECK_THAT(error_of("\"GA\": [", "\"GA\": [1, "), Contains("rods[1].parts[1].section.GA: got a list of 3, expected 2 numbers"));
   CHECK_THAT(error_of("\"young\": 6000000", "\"young\": 0"), Contains("rods[1].parts[1].section.material: ") && Contains("'young' is 0"));
   CHECK_THAT(error_of("\"radii\": [0.1]", "\"radii\": [3]"), Contains("rods[2].shape: curve.pcc: "));
-  CHECK_THAT(error_of("\"radii\": [0.1]", "\"radii\": [0.2]"), Contains("rods[2].length: got ") && Contains("but the shape is"));
+  CHECK_THAT(error_of("\"radii\": [0.1]", "\"radii\": [0.2]"), Contains("rods[2].shape: it is ") && Contains("but the rod's length is"));
   CHECK_THAT(error_of("\"kind\": \"pcc\"", "\"kind\": \"bezier\""), Contains("rods[2].shape.kind: unknown 'bezier'"));
   CHECK_THAT(error_of("\"length\": 1.2", "\"length\": 0"), Contains("rods[1]: ") && Contains("length"));
   CHECK_THAT(error_of("\"gravity\": [0, 0, -9.81]", "\"gravity\": [0, -9.81]"), Contains("gravity: got a list of 2, expected a list of 3 numbers"));
@@ -223,6 +223,28 @@ TEST_CASE("scene file: what is wrong is told by its place") {
   CHECK_THAT(error_of("\"force\": [0, 0.2, -0.1]", "\"force\": [0, 0.2, true]"), Contains("rods[1].loads[1].force[3]: got true, expected a number"));
   CHECK_THAT(error_of("\"slide\": true", "\"robot\": \"arm\", \"link\": \"x\""), Contains("rods[1].holds[2]: ") && Contains("unknown robot 'arm'"));
   CHECK_THAT(error_of("\"robots\": []", "\"robots\": [{\"name\": \"a\", \"robot\": \"builtin:none\"}]"), Contains("robots[1].robot: ") && Contains("'none'"));
+}
+
+TEST_CASE("scene file: shapes through frames") {
+  Scene scene;
+  Rod rod = Rod::uniform(1, testing::soft_section(), 20);
+  form(rod, FrameShape{{0, 0.3, 1}, {Frame{}, Frame{{0.01, 0, 0.29}, Quat(0.8, 0, 0.6, 0)}, Frame{{0.6, 0, 0.5}, Quat(0.6, 0, 0.8, 0)}}});
+  scene.add(PlacedRod("drawn", rod, Frame{}, std::nullopt));
+  const std::string text = scene_text(scene, "x.json");
+  const LoadedScene loaded = parse_scene(text, "x.json");
+  CHECK(scene_text(*loaded.scene, "x.json") == text);
+  CHECK(same_bits(loaded.scene->rod("drawn").rod().shape(0.7), rod.shape(0.7)));
+  CHECK(loaded.scene->rod("drawn").rod().shape_breaks == std::vector<double>{0.3});
+  const auto error = [&](const std::string& from, const std::string& to) {
+    std::string changed = text;
+    changed.replace(changed.find(from), from.size(), to);
+    CHECK_THROWS_WITH(parse_scene(changed, "x.json"), StartsWith("scene.load: x.json: rods[1].shape"));
+  };
+  error("[0.3, ", "[0, ");
+  error("[0.3, ", "[1.3, ");
+  error("[0.3, ", "[");
+  error("0.8, 0, 0.6, 0]", "0.9, 0, 0.6, 0]");
+  error("\"stations\"", "\"station\"");
 }
 
 TEST_CASE("scene file: a truncated file is refused wherever it ends") {
