@@ -194,8 +194,12 @@ put(string, "string.", "gfind", string.gmatch)
 
 local format = string.format
 function string.format(pattern, ...)
+  if type(pattern) ~= "string" then
+    local text = called(format, pattern, ...)
+    return text
+  end
   local values, k = table.pack(...), 0
-  local whole = tostring(pattern):gsub("%%([%-+ #0]*%d*%.?%d*)(.)", function(flags, kind)
+  local whole = pattern:gsub("%%([%-+ #0]*%d*%.?%d*)(.)", function(flags, kind)
     if kind == "%" then return end
     k = k + 1
     if kind:find("[diuoxXc]") then values[k] = cut(tonumber(values[k]) or values[k]) end
