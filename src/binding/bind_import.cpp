@@ -7,6 +7,7 @@
 
 #include "binding/card.h"
 #include "binding/scene_classes.h"
+#include "harness/departure.h"
 #include "harness/write_kbl.h"
 
 namespace tendril::lua {
@@ -121,6 +122,18 @@ std::string describe_harness(const ImportedHarness& h) {
   return text;
 }
 
+const char* const example = "local s, harness = scene.import(\"builtin:t_harness\", {gravity = {0, 0, -9.81}})\n";
+
+Pushed departure_of(lua_State* L, const ImportedSegmentHandle& segment, const SceneEquilibrium& eq) {
+  if (segment.made().rod.empty())
+    throw UsageError("imported_segment:departure: segment '" + segment.drawn().id + "' was left out: " + segment.made().left_out);
+  const Departure found = departure(*segment.harness, static_cast<int>(segment.index), eq.rod(segment.made().rod).equilibrium);
+  Value<double>::push(L, found.distance);
+  Value<double>::push(L, found.s);
+  Value<Vec3>::push(L, found.settled - found.drawn);
+  return {3};
+}
+
 void bind_segment(lua_State* L) {
   using S = ImportedSegmentHandle;
   Class<S>(L, "A segment of an imported harness")
@@ -140,6 +153,12 @@ void bind_segment(lua_State* L) {
       .property("mass", "kg", "Of the segment", [](const S& s) { return s.made().mass; })
       .property("clips", "", "Fixings that hold it", [](const S& s) { return s.made().clips; })
       .property("wires", "", "Names of the wires through it", [](const S& s) { return names_of(s.drawn().wires, s.harness->file); })
+      .method("departure", {.takes = {"equilibrium"}, .returns = "number, number, vec",
+                            .does = "How far the settled rod lies from the drawn line, at most: m, the arc length there, and the way from the "
+                                    "drawn place to the settled one.",
+                            .example = std::string(example) + "local far, at, way = harness.segments[1]:departure(s:solve{})\n"
+                                                              "assert(far > 0 and way.z < 0)"},
+              departure_of)
       .tostring([](const S& s) {
         const ImportedSegment& m = s.made();
         Card card("segment '" + s.drawn().id + "'");
@@ -185,8 +204,6 @@ std::vector<Handle> handles(const std::shared_ptr<const ImportedHarness>& harnes
   return found;
 }
 
-const char* const example = "local s, harness = scene.import(\"builtin:t_harness\", {gravity = {0, 0, -9.81}})\n";
-
 }  // namespace
 
 void add_import(lua_State* L, Module& scene) {
@@ -209,7 +226,7 @@ void add_import(lua_State* L, Module& scene) {
                        .does = "Writes the .kbl file back with the settled centre curves, lengths and nodes in place of the drawn ones; the rest "
                                "stays as it was, byte for byte.",
                        .example = std::string(example) + "harness:save(\"settled.kbl\", s:solve{})"},
-              [](const ImportedHarness& h, const std::string& path, const SceneEquilibrium& eq) { save_kbl(path, h, eq); })
+              [](const ImportedHandle& h, const std::string& path, const SceneEquilibrium& eq) { save_kbl(path, *h.harness, eq); })
       .tostring([](const ImportedHandle& h) { return describe_harness(*h.harness); });
   scene.function("import",
                  {.takes = {"path"}, .options = import_schema(), .returns = "scene, imported_harness",

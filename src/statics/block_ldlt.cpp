@@ -152,6 +152,17 @@ int BlockLdlt::factor(const BlockSystem& system) {
   return not_positive;
 }
 
+std::vector<int> BlockLdlt::nodes_not_positive() const {
+  std::vector<int> nodes;
+  for (std::size_t p = 0; p < blocks_.size(); ++p)
+    for (const double inverse : blocks_[p].inverse)
+      if (!(inverse > 0)) {
+        nodes.push_back(order_.columns()[p].node);
+        break;
+      }
+  return nodes;
+}
+
 void BlockLdlt::newton_step(std::vector<Vec6>& step) const {
   const auto& columns = order_.columns();
   step.resize(columns.size());

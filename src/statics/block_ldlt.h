@@ -23,6 +23,9 @@ class BlockLdlt {
   /// In place: x = (matrix)^-1 x for any further right-hand side.
   void solve(std::vector<Vec6>& x) const;
 
+  /// Nodes whose pivots in the last factor() were not all positive.
+  std::vector<int> nodes_not_positive() const;
+
   /// A pivot was zero or not a number: do not solve.
   bool broken() const { return broken_; }
 

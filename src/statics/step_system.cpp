@@ -9,6 +9,7 @@ namespace {
 
 constexpr double smallest_neutral = 1e-7;  // EI/L^2; shifts from here on tell a neutral direction from a negative one
 constexpr double neutral_growth = 30;
+constexpr int most_alone = 12;               // rounds in which only rods that want it are shifted further
 constexpr double largest_shift = 1e30;     // EI/L^2; beyond this the matrix holds something that is not a number
 
 /// What one dead moment b = R^T m adds to the derivative of the gradient: -[b] of its own, and the half of the elastic
@@ -17,12 +18,48 @@ Mat3 moment_block(const RodSystem::MomentTerm& term) { return -0.5 * cross_matri
 
 }  // namespace
 
-void StepSystem::add_shift(double change) {
-  for (int i = 0; i < network_.nodes(); ++i) {
-    const auto& weight = network_.shift_weights()[i];
-    const double position = change * weight.position, rotation = change * weight.rotation;
-    block.diagonal[i].diagonal() += (Vec6() << position, position, position, rotation, rotation, rotation).finished();
+StepSystem::StepSystem(const RodNetwork& network) : network_(network), ldlt_(network.pattern()), rod_of_(network.nodes(), -1) {
+  for (int k = 0; k < network.rods(); ++k)
+    std::fill_n(rod_of_.begin() + network.first_node(k), network.rod(k).nodes(), k);
+  begin();
+}
+
+void StepSystem::begin() {
+  shifts_.assign(network_.rods(), 0);
+  last_shifts_.assign(network_.rods(), 0);
+}
+
+double StepSystem::shift() const { return *std::max_element(shifts_.begin(), shifts_.end()); }
+
+/// By rod; branch points take their share from the sections that are joined there.
+void StepSystem::add_shift(const std::vector<double>& change) {
+  const auto& weights = network_.shift_weights();
+  const auto add = [&](int node, double position, double rotation) {
+    block.diagonal[node].diagonal() += (Vec6() << position, position, position, rotation, rotation, rotation).finished();
+  };
+  for (int i = 0; i < network_.nodes(); ++i)
+    if (rod_of_[i] >= 0 && change[rod_of_[i]] > 0)
+      add(i, change[rod_of_[i]] * weights[i].position, change[rod_of_[i]] * weights[i].rotation);
+  for (const Joints::Joint& joint : network_.joints()) {
+    const double by = change[rod_of_[joint.section]];
+    if (by > 0)
+      add(joint.branch, joint.part & held_position ? by * weights[joint.section].position : 0,
+          joint.part & held_rotation ? by * weights[joint.section].rotation : 0);
   }
+}
+
+/// Rods with pivots that are not positive; those of a branch point are its rods'. All, where nothing tells.
+std::vector<char> StepSystem::rods_not_positive() const {
+  std::vector<char> rods(network_.rods(), 0);
+  if (!ldlt_.broken())
+    for (const int node : ldlt_.nodes_not_positive()) {
+      if (rod_of_[node] >= 0) rods[rod_of_[node]] = 1;
+      else
+        for (const Joints::Joint& joint : network_.joints())
+          if (joint.branch == node) rods[rod_of_[joint.section]] = 1;
+    }
+  if (std::none_of(rods.begin(), rods.end(), [](char c) { return c; })) rods.assign(rods.size(), 1);
+  return rods;
 }
 
 void StepSystem::take_out_held(const RodState& state) {
@@ -75,34 +112,41 @@ int StepSystem::factor_as_is(int& factorisations) {
 int StepSystem::factor(bool only_positive, int& factorisations, bool try_neutral) {
   int negative = 0;
   applied_ = 0;
-  auto shift_by = [&](double change) {
-    if (change > 0) add_shift(change);
-    applied_ += change;
+  auto shift_by = [&](const std::vector<double>& change) {
+    add_shift(change);
+    applied_ += *std::max_element(change.begin(), change.end());
     negative = ldlt_.factor(block);
     ++factorisations;
   };
-  shift_by(shift_);
+  shift_by(shifts_);
   // Dead moments have no energy: the inertia of the symmetric part says nothing that a shift could mend.
   if (network_.has_moments()) only_positive = false;
   auto good_enough = [&] { return !ldlt_.broken() && (negative == 0 || !only_positive); };
   double neutral = 0;
-  for (double next = smallest_neutral; try_neutral && shift_ == 0 && !good_enough() && next < network_.neutral_shift(); next *= neutral_growth) {
-    shift_by(next - neutral);
+  const bool unshifted = shift() == 0;
+  for (double next = smallest_neutral; try_neutral && unshifted && !good_enough() && next < network_.neutral_shift(); next *= neutral_growth) {
+    shift_by(std::vector<double>(shifts_.size(), next - neutral));
     neutral = next;
   }
   const int found = negative;
-  while (!good_enough()) {
-    const double before = shift_;
-    shift_ = shift_ == 0 ? std::max(0.5, 0.25 * last_shift_) : 10 * shift_;
-    if (!(shift_ < largest_shift)) break;
-    shift_by(shift_ - before);
+  for (int round = 0; !good_enough(); ++round) {
+    const std::vector<char> wanting = round < most_alone ? rods_not_positive() : std::vector<char>(shifts_.size(), 1);
+    std::vector<double> change(shifts_.size(), 0);
+    for (std::size_t k = 0; k < shifts_.size(); ++k) {
+      if (!wanting[k]) continue;
+      const double next = shifts_[k] == 0 ? std::max(0.5, 0.25 * last_shifts_[k]) : 10 * shifts_[k];
+      change[k] = next - shifts_[k];
+      shifts_[k] = next;
+    }
+    if (!(shift() < largest_shift)) break;
+    shift_by(change);
   }
   return found;
 }
 
 void StepSystem::relax_shift() {
-  last_shift_ = shift_;
-  shift_ = 0.25 * shift_ < 0.5 ? 0 : 0.25 * shift_;
+  last_shifts_ = shifts_;
+  for (double& shift : shifts_) shift = 0.25 * shift < 0.5 ? 0 : 0.25 * shift;
 }
 
 void StepSystem::solve(const RodState& state, std::vector<Vec6>& step) const {

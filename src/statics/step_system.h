@@ -10,12 +10,12 @@ namespace tendril {
 
 class StepSystem {
  public:
-  explicit StepSystem(const RodNetwork& network) : network_(network), ldlt_(network.pattern()) {}
+  explicit StepSystem(const RodNetwork& network);
 
   BlockSystem block;  ///< to be assembled before each step
 
   /// A new computation: no shift.
-  void begin() { shift_ = last_shift_ = 0; }
+  void begin();
 
   /// Takes the held unknowns out and lets the holds' remaining way to their places act on the others.
   void take_out_held(const RodState& state);
@@ -36,20 +36,24 @@ class StepSystem {
   /// The direction in which the energy curves least, by inverse iteration with the last factor.
   std::vector<Vec6> softest_mode(const RodState& state) const;
 
-  double shift() const { return shift_; }
+  /// The largest of the rods' shifts. Each rod has its own: where one is about to snap through, the others go on undisturbed.
+  double shift() const;
   /// What the last factor really has on its diagonal, a neutral direction's lift included.
   double applied_shift() const { return applied_; }
   void relax_shift();  ///< after a full step
 
  private:
-  void add_shift(double change);
+  void add_shift(const std::vector<double>& change);
+  std::vector<char> rods_not_positive() const;
   void clear_held(int node, const std::vector<int>& edges);
   void solve_with_moments(const RodState& state, std::vector<Vec6>& step) const;
 
   const RodNetwork& network_;
   BlockLdlt ldlt_;
   std::vector<Vec6> wanted_;  ///< what is left to the holds' places; empty when they are in place
-  double shift_ = 0, last_shift_ = 0, applied_ = 0;
+  std::vector<int> rod_of_;                      ///< by node; of branch points -1
+  std::vector<double> shifts_, last_shifts_;     ///< by rod, in its own bending_scale()
+  double applied_ = 0;
 };
 
 }  // namespace tendril
