@@ -1371,6 +1371,14 @@ function variation_methods:report() end
 ---@return saved_file
 function variation_methods:save(path) end
 
+---A picture that was shown in the terminal, or why not
+---@class shown_picture
+---@field message string "shown", or why not and what to do instead
+---@field ok boolean It was shown
+---@field seconds number Time it took (s)
+---@field status string "shown", "infeasible" (the terminal shows none), "cancelled" or "timeout"
+local shown_picture_methods = {}
+
 ---A file that was saved
 ---@class saved_file
 ---@field ok boolean It was written
@@ -1378,6 +1386,10 @@ function variation_methods:save(path) end
 ---@field seconds number Time it took (s)
 ---@field status string "saved", "cancelled" or "timeout"
 local saved_file_methods = {}
+
+---Shows a saved .png in a terminal that can (kitty, Ghostty, Konsole, iTerm2, WezTerm, sixels).
+---@return shown_picture
+function saved_file_methods:show() end
 
 ---A picture to be
 ---@class view
@@ -1408,6 +1420,18 @@ function view_methods:save(path, options) end
 ---@param options? tendril.view.save_frames.options
 ---@return (saved_file)[]
 function view_methods:save_frames(folder, options) end
+
+---@class (exact) tendril.view.show.options
+---@field size? (integer)[] {width, height}; default: as large as fits above the prompt (pixels)
+---@field sheet? (string)[] Views in rows of two: "iso", "front", "top", "side", "card"; default iso
+---@field fit? string|(string)[] Rod, obstacle, robot or "envelope", or a list, that fills each view
+---@field frames? integer States of an assembly or a motion that are shown (1 ... 100; default 6)
+---@field timeout? number Give up after this time, with the best state so far; default: never (s; > 0 and <= 1000000000)
+
+---Draws it between the lines of a terminal that can (kitty, Ghostty, Konsole, iTerm2, WezTerm, sixels).
+---@param options? tendril.view.show.options
+---@return shown_picture
+function view_methods:show(options) end
 
 ---A chart to be
 ---@class chart
@@ -1484,7 +1508,7 @@ function vec(x, y, z) end
 ---@return frame
 function frame(options) end
 
----Says what a function, object, module or name is.
+---Says what a function, object, module or name is; for other words, what is called or does something like it.
 ---@param subject? any
 function help(subject) end
 
@@ -2087,4 +2111,24 @@ function study.sheet(options) end
 ---@param options? tendril.study.accuracy.options
 ---@return accuracy
 function study.accuracy(scene, options) end
+
+---The folder of the models that come with the program: engine_bay.ply, engine_bay_light.ply, six_axis.
+---@return string
+function study.assets() end
+
+---The lines of the interactive shell, to go on as a script
+session = {}
+
+---What was typed and ran, without queries of help; empty in a script.
+---@return (string)[]
+function session.lines() end
+
+---@class (exact) tendril.session.save.options
+---@field overwrite? boolean Also a file that is no saved session (default false)
+
+---Writes the session as a script: what failed or asked for help is left out, values that were shown are printed.
+---@param path string
+---@param options? tendril.session.save.options
+---@return saved_file
+function session.save(path, options) end
 

@@ -55,6 +55,7 @@ void help(lua_State* L, std::optional<Any> subject) {
       if (text.empty()) text = name + " is " + describe(L, -1) + "; there is no help about it";
       lua_settop(L, top);
     }
+    if (text.empty()) text = help_search_text(registry, name);
     if (text.empty()) {
       const std::string near = nearest_name(name, all_names(registry));
       throw UsageError("help: nothing is called '" + name + "'" + (near.empty() ? "" : "; did you mean '" + near + "'?"));
@@ -71,8 +72,8 @@ void help(lua_State* L, std::optional<Any> subject) {
 }  // namespace
 
 void bind_help(lua_State* L) {
-  Module(L, "", "").function("help", {.takes = {"subject"}, .does = "Says what a function, object, module or name is.",
-                                      .example = "help(vec)"},
+  Module(L, "", "").function("help", {.takes = {"subject"}, .does = "Says what a function, object, module or name is; for other words, what is called or does something like it.",
+                                      .example = "help(vec)\nhelp \"scene:solve\"\nhelp \"bend radius\""},
                              help);
 }
 

@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "base/nearest_name.h"
+#include "base/write_file.h"
 #include "binding/assembly_classes.h"
 #include "binding/bind_mesh.h"
 #include "binding/card.h"
@@ -16,6 +17,7 @@
 #include "binding/route_classes.h"
 #include "binding/saved_file.h"
 #include "binding/scene_classes.h"
+#include "binding/show_picture.h"
 #include "binding/solve_options.h"
 #include "binding/variation_classes.h"
 
@@ -82,6 +84,16 @@ Schema save_options() {
 
 Schema frames_options() {
   return page_options() + Schema{option<int>("frames", "", "How many, evenly spaced; default: all that the motion kept").at_least(1).at_most(9999)};
+}
+
+/// As save_options(), made for a terminal.
+Schema show_options() {
+  return Schema{
+             option<std::array<int, 2>>("size", "pixels", "{width, height}; default: as large as fits above the prompt"),
+             option<std::vector<std::string>>("sheet", "", "Views in rows of two: \"iso\", \"front\", \"top\", \"side\", \"card\"; default iso"),
+             option<OneOrMany>("fit", "", "Rod, obstacle, robot or \"envelope\", or a list, that fills each view"),
+             option<int>("frames", "", "States of an assembly or a motion that are shown").at_least(1).at_most(100).preset(6),
+         } + timeout_schema();
 }
 
 void read_moves(const StabilityHandle& stability, const SceneEquilibrium* shown, PictureWish& wish) {
@@ -227,6 +239,27 @@ SavedFile save_view(lua_State* L, const View& view, const std::string& path, con
   return {path, report.status, report.seconds};
 }
 
+ShownPicture show_view(lua_State* L, const View& view, const Options& o) {
+  const RunContext context = run_context(L, o);
+  return show_picture(L, "view:save(\"picture.png\") writes a file", [&](const PictureTerminal& terminal, Status& status) {
+    View fitted = view;
+    fitted.wish.views = {view.wish.views.front()};  // a terminal is small: one view, unless asked otherwise
+    const PictureTerminal::Size size = terminal.fitting(4.0 / 3);
+    fitted.wish.width = size.width;
+    fitted.wish.height = size.height;
+    PictureReport report;
+    std::string png = picture_png(picture_of(fitted, o), context, &report);
+    status = report.status;
+    return png;
+  });
+}
+
+ShownPicture show_file(lua_State* L, const SavedFile& file) {
+  if (std::filesystem::path(file.path).extension() != ".png")
+    throw UsageError("saved_file:show: '" + file.path + "' is no picture that a terminal shows, expected a .png");
+  return show_picture(L, ("the picture is in " + file.path).c_str(), [&](const PictureTerminal&, Status&) { return read_file(file.path); });
+}
+
 /// Numbered pictures of a motion's states.
 std::vector<SavedFile> save_frames(lua_State* L, const View& view, const std::string& folder, const Options& o) {
   if (!view.motion) throw UsageError("view:save_frames: this view shows one state, expected a motion");
@@ -253,12 +286,25 @@ std::vector<SavedFile> save_frames(lua_State* L, const View& view, const std::st
 }  // namespace
 
 void bind_view(lua_State* L) {
+  Class<ShownPicture>(L, "A picture that was shown in the terminal, or why not")
+      .property("ok", "", "It was shown", [](const ShownPicture& p) { return p.status == Status::solved; })
+      .property("status", "", "\"shown\", \"infeasible\" (the terminal shows none), \"cancelled\" or \"timeout\"",
+                [](const ShownPicture& p) { return p.status == Status::solved ? "shown" : name_of(p.status); })
+      .property("message", "", "\"shown\", or why not and what to do instead", [](const ShownPicture& p) { return p.message; })
+      .property("seconds", "s", "Time it took", [](const ShownPicture& p) { return p.seconds; })
+      .tostring([](const ShownPicture& p) {
+        return p.by.empty() ? "not shown: " + p.message : "shown by " + p.by + " (" + quantity(p.seconds, "s") + ")";
+      });
   Class<SavedFile>(L, "A file that was saved")
       .property("path", "", "Where", [](const SavedFile& f) { return f.path; })
       .property("ok", "", "It was written", [](const SavedFile& f) { return f.status == Status::solved; })
       .property("status", "", "\"saved\", \"cancelled\" or \"timeout\"",
                 [](const SavedFile& f) { return f.status == Status::solved ? "saved" : name_of(f.status); })
       .property("seconds", "s", "Time it took", [](const SavedFile& f) { return f.seconds; })
+      .method("show", {.does = "Shows a saved .png in a terminal that can (kitty, Ghostty, Konsole, iTerm2, WezTerm, sixels).",
+                       .example = "local shown = study.chart{series = {{name = \"sag\", x = {1, 2, 3}, y = {1, 4, 9}}}}:save(\"sag.png\"):show()\n"
+                                  "assert(shown.ok or shown.message)"},
+              show_file)
       .tostring([](const SavedFile& f) {
         const bool saved = f.status == Status::solved;
         return (saved ? "saved " : std::string(name_of(f.status)) + ", not saved: ") + f.path + " (" + quantity(f.seconds, "s") + ")";
@@ -268,6 +314,11 @@ void bind_view(lua_State* L) {
               {.takes = {"path"}, .options = save_options(), .does = "Draws it into a .png; a missing folder is created.",
                          .example = with_equilibrium("view.new{s, eq}:save(\"hose.png\", {size = {320, 240}, sheet = {\"iso\"}})")},
               save_view)
+      .method("show",
+              {.options = show_options(), .does = "Draws it between the lines of a terminal that can (kitty, Ghostty, Konsole, iTerm2, WezTerm, sixels).",
+               .example = with_equilibrium("local shown = view.new{s, eq}:show{sheet = {\"iso\"}}\n"
+                                           "if not shown.ok then print(shown.message) end")},
+              show_view)
       .method("save_frames",
               {.takes = {"folder"}, .options = frames_options(),
                .does = "A motion's states as frame_0001.png, frame_0002.png ... in a folder, for an animation: all through the same camera.",

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
+#include "base/nearest_name.h"
 #include "binding/card.h"
+#include "binding/help_search.h"
 
 namespace tendril::lua {
 namespace {
@@ -84,6 +86,20 @@ std::string help_text(const ModuleRecord& module) {
   std::string text = module.name + "\n  " + module.text;
   if (!rows.empty()) text += "\n\n" + indented(list_text(rows), "  ");
   return text;
+}
+
+std::string help_search_text(const Registry& registry, const std::string& query) {
+  std::vector<std::vector<std::string>> rows;
+  std::vector<std::string> names;
+  for (const HelpMatch& match : search_help(registry, query)) {
+    constexpr std::size_t most = 100;  // characters: a list is looked over, not read
+    rows.push_back({match.name, match.text.size() > most ? match.text.substr(0, match.text.rfind(' ', most)) + " ..." : match.text});
+    names.push_back(match.name);
+  }
+  if (rows.empty()) return {};
+  const std::string near = nearest_name(query, names);
+  return "nothing is called '" + query + "'" + (near.empty() ? "; what comes near it:" : "; did you mean '" + near + "'?") + "\n" +
+         indented(list_text(rows), "  ");
 }
 
 std::string help_named(const Registry& registry, const std::string& name) {

@@ -15,4 +15,7 @@ std::string help_text(const ModuleRecord& module);
 /// By name: "rod.section", "scene:solve" or "scene.solve", "vec", "rod"; "" when nothing bound has that name.
 std::string help_named(const Registry& registry, const std::string& name);
 
+/// What there is for words that are no name, the best first: "" for nothing.
+std::string help_search_text(const Registry& registry, const std::string& query);
+
 }  // namespace tendril::lua

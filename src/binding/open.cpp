@@ -20,6 +20,7 @@ void open_tendril(lua_State* L) {
   bind_method(L);
   bind_view(L);
   bind_study(L);
+  bind_session(L);
   bind_help(L);
   bind_time(L);
 }

@@ -23,6 +23,7 @@ void bind_gradient(lua_State* L);
 void bind_method(lua_State* L);
 void bind_view(lua_State* L);
 void bind_study(lua_State* L);
+void bind_session(lua_State* L);
 void bind_help(lua_State* L);
 void bind_time(lua_State* L);
 

@@ -122,7 +122,8 @@ std::string usage() {
          "Exit codes: 0 done, 1 error in the script, 2 wrong usage, 124 out of time, 130 interrupted.\n"
          "Environment: TENDRIL_LUA folders searched for modules, TENDRIL_MEMORY limit of Lua's memory (8G), NO_COLOR;\n"
          "  TENDRIL_MODULES, TENDRIL_ASSETS, TENDRIL_FONTS other folders of what comes with the program; TENDRIL_BATCH its inner\n"
-         "  loop (common, avx2, avx512); TERM, HOME, XDG_STATE_HOME as usual. More: man tendril.\n";
+         "  loop (common, avx2, avx512); TENDRIL_PICTURES how the terminal shows pictures (kitty, iterm, sixel, none).\n"
+         "  Interactive sessions run ~/.config/tendril/init.lua first, but not with -E. More: man tendril.\n";
 }
 
 }  // namespace tendril::shell

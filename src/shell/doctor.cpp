@@ -12,9 +12,12 @@
 
 #include <lua.hpp>
 
+#include "base/error.h"
 #include "base/installation.h"
 #include "base/load_module.h"
 #include "shell/history.h"
+#include "shell/init_file.h"
+#include "shell/picture_query.h"
 #include "statics/batch_kernel.h"
 
 namespace fs = std::filesystem;
@@ -103,6 +106,9 @@ void look_at_folders(Examination& e) {
   look_at_folder(e, "modules", Part::modules, "");
   const std::string history = history_path();
   e.good("history", history.empty() ? "not kept: there is no HOME" : history);
+  std::error_code error;
+  const std::string init = init_path();
+  e.good("init file", init.empty() || !fs::exists(init, error) ? "none" + (init.empty() ? "" : " (" + init + ")") : init);
 }
 
 struct Module {
@@ -163,12 +169,23 @@ void look_at_programs(Examination& e) {
   e.good("mpirun", launcher.empty() ? "not there (only for studies on several machines)" : launcher);
 }
 
+std::string pictures_of(const Terminal& terminal) {
+  try {
+    const PictureTerminal shows = PictureQuery().look(terminal);
+    return shows.protocol == PictureProtocol::none ? "no: " + shows.why : std::string("by ") + name_of(shows.protocol);
+  } catch (const UsageError& error) {
+    return error.what();
+  }
+}
+
 void look_at_terminal(Examination& e, const Terminal& terminal) {
   e.group("terminal");
   const char* type = std::getenv("TERM");
   e.good("TERM", type && *type ? type : "not set");
   e.good("editing", terminal.can_edit() ? "yes" : "no: input and output are not both a terminal that understands escapes");
   e.good("colours", terminal.colour ? "yes" : "no");
+  e.good("UTF-8", terminal.unicode ? "yes" : "no");
+  e.good("pictures", pictures_of(terminal));
 }
 
 }  // namespace

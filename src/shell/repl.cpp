@@ -1,10 +1,14 @@
 #include "shell/repl.h"
 
 #include <cstdio>
+#include <optional>
 #include <string_view>
 #include <vector>
 
+#include "binding/shell_services.h"
+#include "binding/transcript.h"
 #include "shell/completion.h"
+#include "shell/script_form.h"
 #include "shell/show_value.h"
 
 namespace tendril::shell {
@@ -62,15 +66,17 @@ void finish_interrupt(Session& session) {
   if (session.was_interrupted() || lua::interrupted(session.state())) session.resume_after_interrupt();
 }
 
-bool run_loaded(Session& session) {
+/// How many values it gave, which were printed; nothing when it failed.
+std::optional<int> run_loaded(Session& session) {
   lua_State* L = session.state();
   const int first = lua_gettop(L);
   const bool done = session.call(0, LUA_MULTRET);
+  const int count = lua_gettop(L) - first + 1;
   finish_interrupt(session);  // before printing, which may call Lua
   if (done) print_results(session, first);
   finish_interrupt(session);
   lua_settop(L, first - 1);
-  return done;
+  return done ? std::optional(count) : std::nullopt;
 }
 
 /// "?rod.section" asks for help.
@@ -95,12 +101,21 @@ void remember(LineReader& reader, const std::string& text) {
   }
 }
 
+/// What ran is kept for session.save.
+void keep(Session& session, const std::string& code, bool gave_values) {
+  lua_State* L = session.state();
+  lua::Transcript* transcript = lua::shell_services(L).transcript;
+  if (transcript && !is_about_session(code)) transcript->entries.push_back({code, script_form(L, code, gave_values)});
+}
+
 /// Runs `code` unless more lines are needed.
 Loaded run_code(Session& session, const std::string& code) {
   const Loaded loaded = load(session.state(), with_help(code));
   if (loaded == Loaded::wrong) session.tell_error();
   if (loaded != Loaded::ready) return loaded;
-  return run_loaded(session) ? Loaded::ready : Loaded::wrong;
+  const std::optional<int> values = run_loaded(session);
+  if (values) keep(session, code, *values > 0);
+  return values ? Loaded::ready : Loaded::wrong;
 }
 
 }  // namespace

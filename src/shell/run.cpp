@@ -11,10 +11,12 @@
 #include "shell/arguments.h"
 #include "shell/doctor.h"
 #include "shell/history.h"
+#include "shell/init_file.h"
 #include "shell/limits.h"
 #include "shell/module_path.h"
 #include "shell/repl.h"
 #include "shell/sandbox.h"
+#include "shell/script_form.h"
 
 namespace tendril::shell {
 namespace {
@@ -96,8 +98,38 @@ bool run_script(Program& program) {
 
 void print_version() { std::printf("tendril %s  (%s)\n", TENDRIL_VERSION, LUA_RELEASE); }
 
-void interact(Session& session) {
+/// What ran before the prompt, as a script: the steps of the command line and the script with its arguments.
+std::vector<std::string> before_prompt(const Program& program) {
+  lua_State* L = program.session.state();
+  const auto quoted = [](const std::string& text) {
+    std::string result = "\"";
+    for (const char c : text) result += c == '\n' ? "\\n" : c == '"' || c == '\\' ? std::string("\\") + c : std::string(1, c);
+    return result + "\"";
+  };
+  std::vector<std::string> lines;
+  for (const Step& step : program.arguments.steps) {
+    const auto equals = step.text.find('=');
+    const std::string module = equals == std::string::npos ? step.text : step.text.substr(equals + 1);
+    lines.push_back(step.kind == Step::Kind::execute
+                        ? script_form(L, step.text, false)
+                        : "_G[" + quoted(step.text.substr(0, equals)) + "] = require(" + quoted(module) + ")");
+  }
+  const int script = program.arguments.script;
+  if (script == 0 || program.arguments.script_is_stdin) return lines;
+  std::string given;
+  for (int i = script + 1; i < program.argc; ++i) given += (given.empty() ? "" : ", ") + quoted(program.argv[i]);
+  lines.push_back("assert(loadfile(" + quoted(program.argv[script]) + "))(" + given + ")");
+  return lines;
+}
+
+void interact(const Program& program) {
+  Session& session = program.session;
   const Terminal& terminal = session.terminal();
+  std::vector<std::string> before = before_prompt(program);
+  const bool own_settings = !program.arguments.ignore_environment && !program.arguments.sandbox;
+  const std::string init = own_settings ? init_path() : "";
+  if (run_init_file(session, init)) before.push_back(script_form(session.state(), "dofile [==[" + init + "]==]", false));
+  session.begin_transcript(before);
   std::string pending;
   if (!terminal.can_edit()) {
     const auto reader = make_plain_reader();
@@ -121,11 +153,11 @@ bool run_all(Program& program) {
     if (!run_step(session, step)) return false;
   if (a.script > 0 && !run_script(program)) return false;
   if (a.interactive) {
-    interact(session);
+    interact(program);
   } else if (a.script == 0 && !a.has_code && !a.version) {
     if (!session.terminal().input) return run_script(program);
     if (session.terminal().can_edit()) print_version();
-    interact(session);
+    interact(program);
   }
   return true;
 }

@@ -68,6 +68,9 @@ Session::Session(const Terminal& terminal, std::size_t memory_limit)
   lua_pushcclosure(L_, exit_after_closing, 1);
   lua_setfield(L_, -2, "exit");
   lua_pop(L_, 1);
+  services_.unicode = terminal.unicode;
+  services_.picture_terminal = [this] { return pictures_.look(terminal_); };
+  lua::provide(L_, services_);
   lua::open_tendril(L_);
 }
 
@@ -102,6 +105,11 @@ void Session::tell_interrupt() {
   std::string text = context_.struck_at.empty() ? std::string(interrupted) : context_.struck_at;
   if (time_is_over() && text.ends_with(interrupted)) text.replace(text.size() - interrupted.size(), text.npos, time_limit_text());
   tell(terminal_, text);
+}
+
+void Session::begin_transcript(const std::vector<std::string>& before) {
+  for (const std::string& script : before) transcript_.entries.push_back({"", script});
+  services_.transcript = &transcript_;
 }
 
 void Session::resume_after_interrupt() {

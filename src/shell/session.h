@@ -4,7 +4,10 @@
 #include <string>
 
 #include "binding/lua_context.h"
+#include "binding/shell_services.h"
+#include "binding/transcript.h"
 #include "shell/interrupts.h"
+#include "shell/picture_query.h"
 #include "shell/progress.h"
 #include "shell/terminal.h"
 
@@ -30,6 +33,9 @@ class Session {
 
   bool was_interrupted() const { return was_interrupted_; }
 
+  /// From now on what runs at the prompt is kept, for session.save; `before`: as a script, what ran already.
+  void begin_transcript(const std::vector<std::string>& before);
+
   /// After an interrupt: the session can go on.
   void resume_after_interrupt();
 
@@ -38,6 +44,9 @@ class Session {
 
   Terminal terminal_;
   lua::Context context_;
+  lua::Transcript transcript_;
+  PictureQuery pictures_;
+  lua::ShellServices services_;
   Interrupts interrupts_;
   Progress progress_;
   lua_State* L_ = nullptr;

@@ -9,6 +9,7 @@ struct Terminal {
   bool messages = false;  ///< standard error is a terminal
   bool dumb = false;      ///< TERM says it understands no escapes
   bool colour = false;    ///< colours are welcome on standard error
+  bool unicode = false;   ///< the locale's characters are UTF-8
 
   bool can_edit() const { return input && output && !dumb; }
   bool can_progress() const { return messages && !dumb; }

@@ -10,4 +10,9 @@ RenderPicture render_module() {
   return entry;
 }
 
+RenderSixels sixel_module() {
+  static const auto entry = reinterpret_cast<RenderSixels>(module_entry("picture", "tendril_render.so", sixel_entry));
+  return entry;
+}
+
 }  // namespace tendril

@@ -18,4 +18,12 @@ using RenderPicture = bool (*)(const Picture& picture, const RunContext& context
 /// loaded.
 RenderPicture render_module();
 
+/// A PNG as sixels of at most that size (view/sixel.h): its door in the same module, which has libpng. On failure it returns
+/// false and the reason stands in `error`. Throws nothing.
+inline constexpr const char* sixel_entry = "tendril_render_sixels";
+using RenderSixels = bool (*)(const std::string& png, int width, int height, std::string& sixels, std::string& error);
+
+/// The entry of tendril_render.so; throws as render_module().
+RenderSixels sixel_module();
+
 }  // namespace tendril

@@ -27,7 +27,7 @@ int milliseconds_until(Clock::time_point end) {
 
 [[noreturn]] void become_tendril(const std::vector<std::string>& arguments, const Environment& environment) {
   ::setenv("HOME", "/nonexistent", 1);
-  for (const char* name : {"XDG_STATE_HOME", "TENDRIL_LUA", "TENDRIL_MEMORY", "NO_COLOR"}) ::unsetenv(name);
+  for (const char* name : {"XDG_STATE_HOME", "XDG_CONFIG_HOME", "TENDRIL_LUA", "TENDRIL_MEMORY", "TENDRIL_PICTURES", "NO_COLOR"}) ::unsetenv(name);
   for (const auto& [name, value] : environment) {
     if (value.empty()) ::unsetenv(name.c_str());
     else ::setenv(name.c_str(), value.c_str(), 1);

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "view/sixel.h"
+
 namespace tendril::render {
 
 /// Rows from the top; 4 bytes a pixel. The fourth says how much of the pixel is tube, where that is known.
@@ -20,5 +22,9 @@ struct Image {
 
 /// The colours as a PNG (8 bits, no alpha): fast rather than small. Throws UsageError with libpng's words.
 std::string png_of(const Image& image);
+
+/// A PNG of any kind as plain colours, on white where it is transparent. Throws UsageError with libpng's words, and for more
+/// than 64 million pixels.
+RgbImage image_of(const std::string& png);
 
 }  // namespace tendril::render

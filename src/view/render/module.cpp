@@ -1,6 +1,7 @@
 // The drawing module's entry. Exceptions end here: the caller gets words.
 #include <png.h>
 
+#include <algorithm>
 #include <exception>
 
 #include "view/render/gl.h"
@@ -19,6 +20,18 @@ extern "C" __attribute__((visibility("default"))) bool tendril_render_picture(co
       return true;
     }
     png = tendril::render::png_of(page);
+    return true;
+  } catch (const std::exception& failure) {
+    error = failure.what();
+    return false;
+  }
+}
+
+extern "C" __attribute__((visibility("default"))) bool tendril_render_sixels(const std::string& png, int width, int height,
+                                                                             std::string& sixels, std::string& error) {
+  try {
+    const tendril::RgbImage image = tendril::render::image_of(png);
+    sixels = tendril::sixels_of(tendril::shrunk(image, std::min(width, image.width), std::min(height, image.height)));
     return true;
   } catch (const std::exception& failure) {
     error = failure.what();

@@ -45,4 +45,25 @@ std::string png_of(const Image& image) {
   return bytes;
 }
 
+RgbImage image_of(const std::string& png) {
+  png_image reader{};
+  reader.version = PNG_IMAGE_VERSION;
+  const auto refuse = [&reader] {
+    const std::string why = reader.message;
+    png_image_free(&reader);
+    throw UsageError("libpng cannot read the picture: " + why);
+  };
+  if (!png_image_begin_read_from_memory(&reader, png.data(), png.size())) refuse();
+  if (std::uint64_t(reader.width) * reader.height > 64'000'000) {
+    png_image_free(&reader);
+    throw UsageError("a picture of more than 64 million pixels cannot be shown");
+  }
+  reader.format = PNG_FORMAT_RGB;
+  RgbImage image{static_cast<int>(reader.width), static_cast<int>(reader.height), {}};
+  image.rgb.resize(PNG_IMAGE_SIZE(reader));
+  const png_color white{255, 255, 255};
+  if (!png_image_finish_read(&reader, &white, image.rgb.data(), 0, nullptr)) refuse();
+  return image;
+}
+
 }  // namespace tendril::render

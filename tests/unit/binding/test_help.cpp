@@ -1,5 +1,6 @@
 // Help, examples and editor annotations, for everything that is bound.
 #include <catch2/catch.hpp>
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <iterator>
@@ -7,6 +8,7 @@
 #include <sstream>
 
 #include "base/write_file.h"
+#include "binding/help_search.h"
 #include "binding/help_text.h"
 #include "unit/binding/script.h"
 
@@ -121,7 +123,72 @@ TEST_CASE("help in Lua") {
   CHECK(lua("parts = {place = place} help 'parts.place' return printed") == lua("help(place) return printed"));
   CHECK(lua("x = 5 help 'x' return printed") == "x is a number (5); there is no help about it");
   CHECK(lua("help 'vec:dto'") == "code:1: help: nothing is called 'vec:dto'; did you mean 'vec:dot'?");
+  CHECK_THAT(lua("help 'frmae' return printed"), StartsWith("nothing is called 'frmae'; did you mean 'frame'?\n  frame "));
+  CHECK_THAT(lua("help 'bend rad' return printed"), StartsWith("nothing is called 'bend rad'; what comes near it:\n  "));
   CHECK(lua("help 'os.exit(1)'") == "code:1: help: nothing is called 'os.exit(1)'");
+}
+
+TEST_CASE("help finds what one does not know the name of") {
+  Script lua;
+  const Registry& registry = *lua.context.registry;
+  const auto first = [&](const std::string& query) {
+    const auto found = search_help(registry, query);
+    return found.empty() ? std::string() : found.front().name;
+  };
+  // Slips in a name, words of a text, beginnings, several words.
+  CHECK(first("secton") == "rod.section");
+  CHECK(first("scene:slove") == "scene:solve");
+  CHECK(first("Section") == "rod.section");
+  CHECK(first("accurcy") == "study.accuracy");
+  CHECK(first("dress pack") == "method.dress_pack");
+  CHECK(first("envelop").ends_with(":envelope"));
+  CHECK(first("preformed hose") == "hose");
+  CHECK(search_help(registry, "preformed hose")[1].name == "method.preform");
+  const auto contains = [&](const std::string& query, const std::string& name) {
+    const auto found = search_help(registry, query, 1000);
+    return std::any_of(found.begin(), found.end(), [&](const HelpMatch& m) { return m.name == name; });
+  };
+  CHECK(contains("tolernce", "scene:solve"));            // an option of it
+  CHECK(contains("bend rad", "solved_rod"));             // a property: min_bend_radius
+  CHECK(contains("negative eigenvalue", "equilibrium"));
+  CHECK(contains("megapascal", "units"));
+  for (const char* nothing : {"", " ", "...", "qqqq", "xylophone zebra", "os.exit(1)"}) {
+    INFO(nothing);
+    CHECK(search_help(registry, nothing).empty());
+  }
+}
+
+TEST_CASE("every name is found by itself, with a slip of the pen, too") {
+  Script lua;
+  const Registry& registry = *lua.context.registry;
+  for (const auto& function : registry.functions) {
+    const std::string own = function->own_name();
+    std::string slip = own;
+    if (slip.size() >= 5) std::swap(slip[2], slip[3]);
+    INFO(function->name << " by '" << slip << "'");
+    const auto found = search_help(registry, function->name, 1000), slipped = search_help(registry, slip, 1000);
+    REQUIRE_FALSE(found.empty());
+    CHECK(found.front().score >= slipped.front().score);
+    const auto is_it = [&](const HelpMatch& match) { return match.name == function->name; };
+    CHECK(std::any_of(found.begin(), found.end(), is_it));
+    CHECK(std::any_of(slipped.begin(), slipped.end(), is_it));
+  }
+}
+
+TEST_CASE("the best match comes first, and each name once") {
+  Script lua;
+  for (const char* query : {"rod", "gap", "tolerance", "save picture", "mesh"}) {
+    const auto found = search_help(*lua.context.registry, query);
+    INFO(query);
+    REQUIRE_FALSE(found.empty());
+    CHECK(found.size() <= 12);
+    std::set<std::string> names;
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      CHECK(names.insert(found[i].name).second);
+      CHECK_FALSE(help_named(*lua.context.registry, found[i].name).empty());
+      if (i > 0) CHECK(found[i - 1].score >= found[i].score);
+    }
+  }
 }
 
 TEST_CASE("the editor annotations in the tree are those of what is bound") {
