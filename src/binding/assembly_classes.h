@@ -11,6 +11,7 @@ namespace tendril::lua {
 struct AssemblyHandle {
   std::shared_ptr<const assembly::Result> result;
   std::shared_ptr<Scene> scene;
+  std::vector<assembly::Connector> connectors;
 };
 
 /// The paths of all grips.

@@ -6,6 +6,7 @@
 #include "base/write_file.h"
 #include "binding/assembly_chart.h"
 #include "binding/assembly_classes.h"
+#include "binding/bind_export.h"
 #include "binding/bind_method.h"
 #include "binding/bind_obstacle.h"
 #include "binding/card.h"
@@ -143,11 +144,26 @@ std::shared_ptr<SceneEquilibrium> frame_at(const AssemblyHandle& h, double t) {
   return std::const_pointer_cast<SceneEquilibrium>(nearest->equilibrium);
 }
 
-SavedFile save_assembly(const AssemblyHandle& h, const std::string& path) {
+/// What was played, at the manipulation's pace.
+SavedFile save_assembly_animation(const AssemblyHandle& h, const std::string& path, const Options& o) {
+  std::vector<double> times;
+  std::vector<std::shared_ptr<const SceneEquilibrium>> states;
+  for (const assembly::KeyFrame& key : h.result->play) {
+    times.push_back(h.result->duration * key.t);
+    states.push_back(key.equilibrium);
+  }
+  std::vector<CarriedBody> carried;
+  for (const assembly::Connector& connector : h.connectors)
+    carried.push_back({connector.name, connector.rod, connector.at_start ? 0 : h.scene->rod(connector.rod).rod().length, connector.body});
+  return save_animation("assembly:save", path, times, states, carried, o);
+}
+
+SavedFile save_assembly(const AssemblyHandle& h, const std::string& path, const Options& o) {
+  if (path.ends_with(".glb")) return save_assembly_animation(h, path, o);
   if (h.result->manipulation.grips.empty()) throw UsageError("assembly:save: no manipulation was proven: " + h.result->message);
   if (path.ends_with(".csv")) write_file(path, assembly::manipulation_csv(h.result->manipulation, h.result->duration));
   else if (path.ends_with(".json")) write_file(path, assembly::manipulation_json(h.result->manipulation, h.result->duration));
-  else throw UsageError("assembly:save: got '" + path + "', expected a file name that ends in .csv or .json");
+  else throw UsageError("assembly:save: got '" + path + "', expected a file name that ends in .csv, .json or .glb");
   return {path, Status::solved, 0};
 }
 
@@ -270,7 +286,9 @@ void bind_assembly(lua_State* L) {
       .method("hands_at", {.takes = {"t"}, .does = "Grips to be held at t = 0 ... 1: one that is a connection and at rest until the end is plugged in and needs no hand.",
                            .example = example + "print(a:hands_at(0) >= a:hands_at(0.9))  --> true"},
               hands_at)
-      .method("save", {.takes = {"path"}, .does = "Writes the paths of all grips into a .csv or .json: s, mm, quaternions.", .example = example + "a:save(\"paths.csv\")\na:save(\"paths.json\")"},
+      .method("save", {.takes = {"path"}, .options = animation_options(),
+                        .does = "Writes the paths of all grips into a .csv or .json (s, mm, quaternions), or what was played as an animated .glb.",
+                        .example = example + "a:save(\"paths.csv\")\na:save(\"paths.json\")\na:save(\"way_in.glb\")"},
               save_assembly)
       .method("chart", {.options = {option<std::string>("title", "", "Above it; default: \"Installation\"")},
                         .does = "Strain, bend radius, clearance and hands over time, one below the other.", .example = example + "print(a:chart())"},
@@ -284,7 +302,8 @@ void add_assembly_to(Module& method) {
                    .does = "A manipulation that brings a system of rods to its routed configuration, proven by playing it forward under gravity and in contact.",
                    .example = example + "print(a.ok, a.status)  --> true\tsolved"},
                   [](lua_State* state, const std::shared_ptr<Scene>& scene, const Options& o) {
-                    return AssemblyHandle{std::make_shared<const assembly::Result>(assembly::run(*scene, assembly_options(o), method_context(state, o))), scene};
+                    const assembly::Options options = assembly_options(o);
+                    return AssemblyHandle{std::make_shared<const assembly::Result>(assembly::run(*scene, options, method_context(state, o))), scene, options.connectors};
                   });
 }
 

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 
+#include "binding/bind_export.h"
 #include "binding/bind_gradient.h"
 #include "binding/examples.h"
 #include "binding/card.h"
@@ -160,8 +161,9 @@ void bind_equilibrium(lua_State* L) {
   bind_values(L);
   bind_supports(L);
   bind_solved_rod(L);
-  Class<SceneEquilibrium>(L, "A scene in static equilibrium, as it was when it was solved")
-      .property("ok", "", "Every rod is solved", [](const SceneEquilibrium& e) { return e.ok(); })
+  Class<SceneEquilibrium> equilibrium(L, "A scene in static equilibrium, as it was when it was solved");
+  add_save_to(equilibrium);
+  equilibrium.property("ok", "", "Every rod is solved", [](const SceneEquilibrium& e) { return e.ok(); })
       .property("status", "", "\"solved\", \"stalled\", \"cancelled\", \"timeout\"", [](const SceneEquilibrium& e) { return name_of(e.status()); })
       .property("message", "", "What there is to say about it", [](const SceneEquilibrium& e) { return e.message(); })
       .property("seconds", "s", "Time to solve, without building trees", [](const SceneEquilibrium& e) { return e.seconds; })

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "binding/bind_envelope.h"
+#include "binding/bind_export.h"
 #include "binding/bind_mesh.h"
 #include "binding/card.h"
 #include "binding/clearance_value.h"
@@ -176,6 +177,7 @@ void bind_motion(lua_State* L, const std::shared_ptr<EnvelopeBuilder>& builder) 
                                                  "local gaps = m:clearance{from = \"hose\"}\nprint(gaps[3] < gaps[1])  --> true")},
               clearances_of)
       .tostring(describe_motion);
+  add_save_to(motion);
   add_envelope_to(motion, builder);
 }
 

@@ -1,5 +1,6 @@
 // scene: the world. Obstacles, rods in their places, loads, and the solve.
 #include "binding/bind_branch.h"
+#include "binding/bind_export.h"
 #include "binding/bind_import.h"
 #include "binding/bind_motion.h"
 #include "binding/bind_obstacle.h"
@@ -148,6 +149,7 @@ void bind_scene_class(lua_State* L) {
   add_branch_to(world);
   add_robots_to(world);
   add_motion_to(world);
+  add_export_to(world);
   world.property("gravity", "m/s^2", "Acceleration", [](const Scene& s) { return s.gravity(); })
       .property("rods", "", "Names of the rods", rod_names)
       .property("obstacles", "", "Names of the obstacles", obstacle_names)
