@@ -65,7 +65,7 @@ for _, slip in ipairs{0.5, 0.7} do
 end
 
 local picture = out .. "/old_beetle_harness.png"
-view.new{car, eq, color = "curvature", title = "Main harness at rest"}
+view.new{car, eq, color = "tension", title = "Main harness at rest"}
   :save(picture, {size = {1600, 1200}, sheet = {"iso", "front", "top", "card"}})
 harness:save(out .. "/old_beetle_settled.kbl", eq)
 print("picture: " .. picture .. ", settled harness: " .. out .. "/old_beetle_settled.kbl")

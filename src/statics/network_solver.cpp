@@ -143,7 +143,8 @@ RodState NetworkSolver::starting_state(const SystemEquilibrium* from) const {
 NewtonOutcome NetworkSolver::iterate(RodState& state, bool warm, const RunContext& context) {
   NewtonOptions options;
   options.tolerance = options_.tolerance;
-  options.max_iterations = std::min(40, options_.max_iterations);
+  // Of many rods one after the other may snap through on the way.
+  options.max_iterations = std::min(network_->rods() > 1 ? 120 : 40, options_.max_iterations);
   options.stable_only = options_.stable_only;
   options.warm = warm;
   return newton_.run(state, options, context);

@@ -14,6 +14,7 @@ constexpr double stiff_stretch = 1e3;       // h^2 EA/(12 EI): above it no step 
 constexpr int most_mode_moves = 6;
 constexpr double mode_step = 0.1;          // rad, and share of the length: how far a saddle is left
 constexpr double quadratic_regime = 1e-2;  // below this a step predicts the next one
+constexpr double lingering_ratio = 0.3;      // of a step to the one before it
 constexpr double settled_step = 1e-5;      // steps below this that shrink no more are rounding along a nearly neutral mode
 constexpr int settled_rounds = 5;
 constexpr double blocked_share = 0.3;      // of a step; the guards left less
@@ -128,6 +129,7 @@ NewtonOutcome Newton::run(RodState& state, const NewtonOptions& options, const R
   smallest_of_cycle_ = INFINITY;
   since_smallest_ = 0;
   mode_moves_ = blocked_ = not_shrinking_ = left_out_ = 0;
+  lingering_ = false;
   while (out.iterations < options.max_iterations) {
     if (const auto stop = context.stop()) {
       out.status = *stop;
@@ -158,8 +160,10 @@ NewtonOutcome Newton::run(RodState& state, const NewtonOptions& options, const R
     }
     if (linear_.shift() > 0 && out.last_step < saddle_step && mode_moves_ < most_mode_moves) leave_saddle(state);
     if (full) linear_.relax_shift();
+    // Close to the solution the predicted wrench can keep the steps from shrinking; there the actual one is sound.
+    lingering_ = size < quadratic_regime && (lingering_ || size > lingering_ratio * previous_size_);
     previous_size_ = size;
-    stress_ = options.descend ? Stress::actual : size > rough_step ? Stress::rough : Stress::predicted;
+    stress_ = options.descend || lingering_ ? Stress::actual : size > rough_step ? Stress::rough : Stress::predicted;
   }
   return out;
 }

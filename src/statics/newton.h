@@ -85,6 +85,7 @@ class Newton {
   double previous_size_ = 0;      ///< of the step before
   double smallest_size_ = 0;
   int blocked_ = 0;               ///< rounds in which the guards cut the step short
+  bool lingering_ = false;        ///< close to the solution, and steps hardly shrink
   int not_shrinking_ = 0;         ///< rounds at the level of rounding
   int mode_moves_ = 0;
   double smallest_of_cycle_ = 0;
