@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "binding/bind_bundle.h"
 #include "binding/examples.h"
 #include "binding/lua_class.h"
 #include "binding/open.h"
@@ -226,8 +227,9 @@ void bind_design(lua_State* L) {
 void bind_rod(lua_State* L) {
   bind_material_and_section(L);
   bind_design(L);
-  Module(L, "rod", "What a cable or hose is")
-      .function("material",
+  Module rod(L, "rod", "What a cable or hose is");
+  add_bundles_to(L, rod);
+  rod.function("material",
                 {.options = material_options(), .does = "An isotropic linear-elastic material.",
                  .example = "print(rod.material{young = 6 * units.MPa, poisson = 0.49, density = 1150})"},
                 make_material)

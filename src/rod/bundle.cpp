@@ -176,9 +176,9 @@ Bundle bundle_of(const std::vector<BundleWire>& wires, const BundleOptions& opti
 BundleWire copper_wire(double outer, double conductor_area, double mass, int count) {
   const auto positive = [](double value) { return std::isfinite(value) && value > 0; };
   if (!positive(outer))
-    throw UsageError("rod.copper_wire: 'outer' is " + number_text(outer) + ", expected a finite number above 0 (m)");
+    throw UsageError("rod.wire: 'outer' is " + number_text(outer) + ", expected a finite number above 0 (m)");
   if (!positive(conductor_area))
-    throw UsageError("rod.copper_wire: 'area' is " + number_text(conductor_area) + ", expected a finite number above 0 (m^2)");
+    throw UsageError("rod.wire: 'area' is " + number_text(conductor_area) + ", expected a finite number above 0 (m^2)");
   constexpr double square_millimetre = 1e-6, copper_density = 8960, pvc_density = 1400;
   struct Strand {
     double up_to, diameter;  // m^2, m
@@ -192,7 +192,7 @@ BundleWire copper_wire(double outer, double conductor_area, double mass, int cou
   wire.fill = 0.7;
   wire.conductor = std::sqrt(4 * conductor_area / (pi * wire.fill));
   if (wire.conductor >= outer)
-    throw UsageError("rod.copper_wire: a conductor of " + number_text(conductor_area / square_millimetre) + " mm^2 is " +
+    throw UsageError("rod.wire: a conductor of " + number_text(conductor_area / square_millimetre) + " mm^2 is " +
                      number_text(wire.conductor * 1e3) + " mm wide, expected less than 'outer' = " + number_text(outer * 1e3) + " mm");
   wire.strands = int(std::clamp(std::round(conductor_area / disc_area(strand)), 1.0, double(max_count)));
   wire.young = 115e9;
