@@ -5,6 +5,7 @@
 #include "binding/bind_motion.h"
 #include "binding/bind_obstacle.h"
 #include "binding/bind_placed_robot.h"
+#include "binding/bind_scene_file.h"
 #include "binding/examples.h"
 #include "binding/lua_class.h"
 #include "binding/open.h"
@@ -150,6 +151,7 @@ void bind_scene_class(lua_State* L) {
   add_robots_to(world);
   add_motion_to(world);
   add_export_to(world);
+  add_scene_file_to(world);
   world.property("gravity", "m/s^2", "Acceleration", [](const Scene& s) { return s.gravity(); })
       .property("rods", "", "Names of the rods", rod_names)
       .property("obstacles", "", "Names of the obstacles", obstacle_names)
@@ -225,6 +227,7 @@ void bind_scene(lua_State* L) {
   bind_mesh(L, scene);
   add_import(L, scene);
   add_solids(L, scene);
+  add_scene_file_to(scene);
 }
 
 }  // namespace tendril::lua
