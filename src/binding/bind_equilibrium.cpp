@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "binding/bind_export.h"
+#include "binding/bind_quantities.h"
 #include "binding/bind_gradient.h"
 #include "binding/examples.h"
 #include "binding/card.h"
@@ -163,6 +164,7 @@ void bind_equilibrium(lua_State* L) {
   bind_solved_rod(L);
   Class<SceneEquilibrium> equilibrium(L, "A scene in static equilibrium, as it was when it was solved");
   add_save_to(equilibrium);
+  add_quantities_to(L, equilibrium);
   equilibrium.property("ok", "", "Every rod is solved", [](const SceneEquilibrium& e) { return e.ok(); })
       .property("status", "", "\"solved\", \"stalled\", \"cancelled\", \"timeout\"", [](const SceneEquilibrium& e) { return name_of(e.status()); })
       .property("message", "", "What there is to say about it", [](const SceneEquilibrium& e) { return e.message(); })

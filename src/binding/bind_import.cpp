@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "binding/card.h"
 #include "binding/scene_classes.h"
@@ -197,6 +198,19 @@ void bind_wire(lua_State* L) {
       });
 }
 
+/// By wire, the rods it runs through; of several wires with one name the later ones are called "name (2)" and so on.
+std::map<std::string, std::vector<std::string>> rods_by_wire(const ImportedHarness& harness) {
+  std::map<std::string, std::vector<std::string>> rods;
+  for (const HarnessWire& wire : harness.file.wires) {
+    std::string name = wire.name;
+    for (int k = 2; rods.count(name) > 0; ++k) name = wire.name + " (" + std::to_string(k) + ")";
+    std::vector<std::string>& through = rods[name];
+    for (const int k : wire.segments)
+      if (!harness.segments[k].rod.empty()) through.push_back(harness.segments[k].rod);
+  }
+  return rods;
+}
+
 template <class Handle>
 std::vector<Handle> handles(const std::shared_ptr<const ImportedHarness>& harness, std::size_t count) {
   std::vector<Handle> found;
@@ -215,6 +229,8 @@ void add_import(lua_State* L, Module& scene) {
       .property("segments", "", "All of the file's, in its order",
                 [](const ImportedHandle& h) { return handles<ImportedSegmentHandle>(h.harness, h->segments.size()); })
       .property("wires", "", "Wires and cables", [](const ImportedHandle& h) { return handles<ImportedWireHandle>(h.harness, h->file.wires.size()); })
+      .property("wire_rods", "", "By wire, the names of the rods it runs through: for equilibrium:quantities",
+                [](const ImportedHandle& h) { return rods_by_wire(*h.harness); })
       .property("notes", "", "What was assumed, mended or left out", [](const ImportedHandle& h) { return h->notes; })
       .property("clips", "", "Fixings that hold rods", [](const ImportedHandle& h) { return h->clips; })
       .property("branches", "", "Branch points", [](const ImportedHandle& h) { return h->branches; })
