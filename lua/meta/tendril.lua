@@ -64,6 +64,7 @@ local material_methods = {}
 ---@field GJ number Twist stiffness (N m^2)
 ---@field inner number Inner diameter (m)
 ---@field mass number Mass per length (kg/m)
+---@field material material? What it is made of; nil where the stiffnesses were measured
 ---@field outer number Outer diameter (m)
 local section_methods = {}
 
@@ -92,6 +93,28 @@ function rod_methods:section_at(s) end
 ---@param options? tendril.rod.with.options
 ---@return rod
 function rod_methods:with(options) end
+
+---An insulated wire, for bundles
+---@class wire
+---@field area number Metal in the conductor (m^2)
+---@field conductor number Diameter of the circle around the conductor's strands (m)
+---@field insulation_young number Of the insulation (Pa)
+---@field mass number Mass per length (kg/m)
+---@field min_bend_radius number Of its centre line; 0: not stated (m)
+---@field outer number Outside diameter, with insulation (m)
+---@field strands integer In the conductor
+---@field young number Of the conductor's metal (Pa)
+local wire_methods = {}
+
+---How the section of a bundle came about
+---@class bundle
+---@field EI_range (number)[] {wires and strands slip freely, all glued} (N m^2)
+---@field GJ_range (number)[] {wires and strands slip freely, all glued} (N m^2)
+---@field min_bend_radius number Of the bundle's centre line, so that no wire inside bends below its own; 0: none stated (m)
+---@field outer number Outside diameter, with tape (m)
+---@field section section For rod.new
+---@field slip number That was used: 1 slips freely, 0 glued
+local bundle_methods = {}
 
 ---A curve in space by arc length; it never changes
 ---@class curve
@@ -222,6 +245,20 @@ function scene_methods:branch(name, places, options) end
 ---@return explanation
 function scene_methods:explain(options) end
 
+---@class (exact) tendril.scene.export.options
+---@field equilibrium? equilibrium Where the rods are; the surroundings are then those it was solved in
+---@field rods? boolean Rods as tubes (default true)
+---@field obstacles? boolean Obstacles (default true)
+---@field robots? boolean The robots' links (default true)
+---@field tolerance? number Of the tubes' facets from the round, bent rods; default: 2 % of each rod's radius (m; > 0)
+---@field unit? "mm"|"cm"|"m"|"in" Length unit of the file; default "m". A .glb is always in m
+
+---Writes rods, obstacles and links as .glb (a named part each, in colours), .obj (a group each), .stl or .ply (one mesh).
+---@param path string
+---@param options? tendril.scene.export.options
+---@return saved_file
+function scene_methods:export(path, options) end
+
 ---@class (exact) tendril.scene.motion.options
 ---@field holds? table<string, function|(frame)[]> By "rod.start", "rod.finish", "rod.0.25" (an arc length in m) or a branch point's name: a function of t = 0 ... 1 that returns a frame, or a list of frames passed evenly in t
 ---@field robot? string Instead of holds: the robot that moves, with all rods of the scene attached to it
@@ -293,6 +330,15 @@ function scene_methods:robot(name, robot, options) end
 ---@return placed_rod
 function scene_methods:rod(name, design, options) end
 
+---@class (exact) tendril.scene.save.options
+---@field embed? boolean Meshes stand in the file itself, not by their files' names (default false)
+
+---Writes all that the scene holds as JSON, for scene.load. Files of meshes and robots are named relative to it where they lie near it.
+---@param path string
+---@param options? tendril.scene.save.options
+---@return scene
+function scene_methods:save(path, options) end
+
 ---@class (exact) tendril.scene.solve.options
 ---@field element? "se3"|"staggered" Rod element: fourth order, or the second-order reference element (default "se3")
 ---@field clamp? "half_cell"|"thesis" How the staggered element clamps an end: second order, or the thesis's first order (default "half_cell")
@@ -331,6 +377,63 @@ function mesh_methods:contains(point) end
 ---@param path string
 ---@param options? tendril.mesh.save.options
 function mesh_methods:save(path, options) end
+
+---A segment of an imported harness
+---@class imported_segment
+---@field EI number Bending stiffness that was taken (N m^2)
+---@field EI_glued number Upper bound: nothing slips (N m^2)
+---@field EI_slipping number Lower bound: every strand bends by itself (N m^2)
+---@field clips integer Fixings that hold it
+---@field cut_off number Of the drawn curve beyond its nodes (m)
+---@field drawn_bend_radius number The smallest of the drawn line (m)
+---@field left_out string Why it was left out; empty: it was not
+---@field length number Of its centre line (m)
+---@field mass number Of the segment (kg)
+---@field min_bend_radius number Allowed by its wires and nodes; 0: not stated (m)
+---@field name string What the file calls it
+---@field outer number Across the bundle of its wires (m)
+---@field rod string The name of its rod in the scene; empty: it was left out
+---@field stated_length number What the file says; 0: nothing (m)
+---@field stated_outer number From the cross-section that the file states; 0: none (m)
+---@field wires (string)[] Names of the wires through it
+local imported_segment_methods = {}
+
+---How far the settled rod lies from the drawn line, at most: m, the arc length there, and the way from the drawn place to the settled one.
+---@param equilibrium equilibrium
+---@return number, number, vec
+function imported_segment_methods:departure(equilibrium) end
+
+---A wire or cable of an imported harness
+---@class imported_wire
+---@field conductor_area number Of all its cores; 0: not stated (m^2)
+---@field length number Of the segments it runs through (m)
+---@field mass number Per length; 0: not stated (kg/m)
+---@field name string Its number in the harness, else that of its part
+---@field outer number Outside diameter; 0: not stated (m)
+---@field segments (string)[] Ids of the segments it runs through
+---@field stated_length number What the file says; 0: nothing (m)
+---@field type string As the file has it
+local imported_wire_methods = {}
+
+---What a harness file holds, and what became of it in the scene
+---@class imported_harness
+---@field branches integer Branch points
+---@field clips integer Fixings that hold rods
+---@field format string Of the file
+---@field held_ends integer Ends held where they are drawn
+---@field largest_length_off number The largest of them (m)
+---@field median_length_off number Median of the differences between segments' lengths and what the file states (m)
+---@field name string Part description or number
+---@field notes (string)[] What was assumed, mended or left out
+---@field segments (imported_segment)[] All of the file's, in its order
+---@field wire_rods table<string, (string)[]> By wire, the names of the rods it runs through: for equilibrium:quantities
+---@field wires (imported_wire)[] Wires and cables
+local imported_harness_methods = {}
+
+---Writes the .kbl file back with the settled centre curves, lengths and nodes in place of the drawn ones; the rest stays as it was, byte for byte.
+---@param path string
+---@param equilibrium equilibrium
+function imported_harness_methods:save(path, equilibrium) end
 
 ---A box, sphere, cylinder or half-space to place with scene:obstacle
 ---@class solid
@@ -504,10 +607,64 @@ function equilibrium_methods:gradient(measure, parameters) end
 ---@return vec
 function equilibrium_methods:moment(name, where) end
 
+---@class (exact) tendril.equilibrium.quantities.options
+---@field wires? table<string, (string)[]> By wire, the names of the rods that it runs through: {W1 = {"trunk", "left"}}
+---@field clearance? number How much more a metre costs next to obstacles, as weights.clearance in routing (>= 0; default 0)
+---@field preference? number How much more a metre costs next to obstacles with prefer = "avoid", and away from those with prefer = "near" (>= 0; default 0)
+---@field range? number Gap from which on neither counts (m; > 0; default 0.1)
+---@field free_ends? number At the rods' ends, not judged for collision (m; >= 0; default 0)
+
+---What the harness is measured by: lengths, volume, mass, clips, branch points, length in collision, cost; and lengths by wire.
+---@param options? tendril.equilibrium.quantities.options
+---@return quantities
+function equilibrium_methods:quantities(options) end
+
 ---One rod in equilibrium.
 ---@param name string
 ---@return solved_rod
 function equilibrium_methods:rod(name) end
+
+---@class (exact) tendril.equilibrium.save.options
+---@field rods? boolean Rods as tubes (default true)
+---@field obstacles? boolean Obstacles (default true)
+---@field robots? boolean The robots' links (default true)
+---@field tolerance? number Of the tubes' facets from the round, bent rods; default: 2 % of each rod's radius (m; > 0)
+---@field unit? "mm"|"cm"|"m"|"in" Length unit of the file; default "m". A .glb is always in m
+
+---Writes the rods as .csv (a line a vertex: rod, s, place, tangent, bend radius, tension), or all that was solved as .glb, .obj, .stl or .ply, as s:export does.
+---@param path string
+---@param options? tendril.equilibrium.save.options
+---@return saved_file
+function equilibrium_methods:save(path, options) end
+
+---What one rod is measured by
+---@class rod_quantities
+---@field clips integer Holds between the ends
+---@field cost number Length, and what its run costs more by clearance and preference (m)
+---@field held_ends integer Ends that are held; those at branch points do not count
+---@field length number Of the centre line at rest (m)
+---@field length_in_collision number Where it penetrates an obstacle by more than contact leaves (m)
+---@field mass number All of it (kg)
+---@field name string Its name in the scene
+---@field unstressed_length number Without load (m)
+---@field volume number Of the space it takes; what is hollow counts as full (m^3)
+local rod_quantities_methods = {}
+
+---What a harness is measured by, in all and by rod
+---@class quantities
+---@field branches integer Number of branch points
+---@field cable_length number Of all wires (m)
+---@field clips integer Holds between the ends
+---@field cost number Length, and what its run costs more by clearance and preference (m)
+---@field held_ends integer Ends that are held; those at branch points do not count
+---@field length number Of the centre line at rest (m)
+---@field length_in_collision number Where it penetrates an obstacle by more than contact leaves (m)
+---@field mass number All of it (kg)
+---@field rods (rod_quantities)[] List by rod
+---@field unstressed_length number Without load (m)
+---@field volume number Of the space it takes; what is hollow counts as full (m^3)
+---@field wire_lengths table<string, number> By wire, at rest (m)
+local quantities_methods = {}
 
 ---A joint of a robot that moves by itself: one entry of its joint values
 ---@class joint
@@ -720,10 +877,17 @@ function assembly_methods:frame(t) end
 ---@return integer
 function assembly_methods:hands_at(t) end
 
----Writes the paths of all grips into a .csv or .json: s, mm, quaternions.
+---@class (exact) tendril.assembly.save.options
+---@field rods? boolean Rods as tubes (default true)
+---@field obstacles? boolean Obstacles (default true)
+---@field robots? boolean The robots' links (default true)
+---@field tolerance? number Of the tubes' facets from the round, bent rods; default: 2 % of each rod's radius (m; > 0)
+
+---Writes the paths of all grips into a .csv or .json (s, mm, quaternions), or what was played as an animated .glb.
 ---@param path string
+---@param options? tendril.assembly.save.options
 ---@return saved_file
-function assembly_methods:save(path) end
+function assembly_methods:save(path, options) end
 
 ---One step of the search for a better path
 ---@class search_step
@@ -920,6 +1084,19 @@ function motion_methods:clearance(options) end
 ---@param options? tendril.motion.envelope.options
 ---@return mesh, envelope_report
 function motion_methods:envelope(options) end
+
+---@class (exact) tendril.motion.save.options
+---@field seconds? number How long it plays (s; > 0 and <= 1000000; default 5)
+---@field rods? boolean Rods as tubes (default true)
+---@field obstacles? boolean Obstacles (default true)
+---@field robots? boolean The robots' links (default true)
+---@field tolerance? number Of the tubes' facets from the round, bent rods; default: 2 % of each rod's radius (m; > 0)
+
+---Writes it as an animated .glb: rods bend, robots' links and other bodies move, between its solutions evenly.
+---@param path string
+---@param options? tendril.motion.save.options
+---@return saved_file
+function motion_methods:save(path, options) end
 
 ---A junction or a free end on a build board
 ---@class board_point
@@ -1575,6 +1752,35 @@ units.g = 0
 ---What a cable or hose is
 rod = {}
 
+---@class (exact) tendril.rod.wire.options
+---@field outer number Outside diameter, with insulation (m; > 0)
+---@field area number Metal in the conductor; 0: none, a filler or tube (m^2; >= 0)
+---@field mass? number Measured; default: that of copper and PVC (kg/m; > 0)
+---@field min_bend_radius? number Of its centre line; default: three outside diameters (m; >= 0)
+---@field conductor? number Diameter of the circle around the conductor's strands; default: metal fills 0.7 of it (m; > 0)
+---@field strands? integer In the conductor; default: as ISO 6722 makes up flexible wires of this area (1 ... 1000000)
+---@field young? number Of the conductor's metal; default: copper (Pa; > 0)
+---@field insulation_young? number Default: soft PVC (Pa; > 0)
+
+---An insulated stranded wire, by default of copper and PVC.
+---@param options tendril.rod.wire.options
+---@return wire
+function rod.wire(options) end
+
+---@class (exact) tendril.rod.bundle.options
+---@field wires (wire|{wire: wire, count: integer})[] List of wires, or of {wire =, count =}
+---@field slip? number How freely wires and strands slip: 1 freely, 0 glued; default 0.85, with tape 0.7 (0 ... 1)
+---@field taped? boolean Wound with tape, half overlapped (default false)
+---@field tape_thickness? number All layers, on the radius (m; > 0; default 0.00026)
+---@field tape_young? number Of the tape (Pa; > 0; default 30000000)
+---@field tape_density? number Of the tape (kg/m^3; >= 0; default 1300)
+---@field packing? number Wires' area over that of the circle around them; default: the known packings up to seven equal wires, otherwise 0.694 (> 0 and <= 1)
+
+---The section of a bundle of wires, its stiffness between that of wires that slip freely and wires that are glued; and how it came about.
+---@param options tendril.rod.bundle.options
+---@return section, bundle
+function rod.bundle(options) end
+
 ---@class (exact) tendril.rod.material.options
 ---@field young number Young's modulus (Pa; > 0)
 ---@field poisson? number Poisson's ratio; give this or shear (> -1 and <= 0.5)
@@ -1673,6 +1879,19 @@ function scene.new(options) end
 ---@return mesh
 function scene.mesh(source, options) end
 
+---@class (exact) tendril.scene.import.options
+---@field gravity? vec|number[] Acceleration in the file's axes; default or zero: the term is left out (m/s^2)
+---@field shape? "drawn"|"straight" Without load: as the file draws it, or straight, as bundles come off the build board (default "drawn")
+---@field clips? "fixed"|"slide"|"swivel"|"none" What fixings hold: everything, everything but sliding, the place only, or nothing (default "fixed")
+---@field slip? number How freely wires slip in their bundles, 1 freely, 0 not at all; default as in rod.bundle (0 ... 1)
+---@field element? number Longest element of a rod; bends make them shorter (m; 0.0001 ... 10; default 0.025)
+
+---A harness file (.kbl) as a scene: a rod for every segment with the section of its bundle of wires, branch points, connectors and fixings as holds; and a report of what the file holds and how well it fits together.
+---@param path string
+---@param options? tendril.scene.import.options
+---@return scene, imported_harness
+function scene.import(path, options) end
+
 ---@class (exact) tendril.scene.box.options
 ---@field size vec|number[] Edge lengths along its x, y, z; its middle is the pose's place (m)
 
@@ -1704,6 +1923,11 @@ function scene.cylinder(options) end
 ---@param options? tendril.scene.plane.options
 ---@return solid
 function scene.plane(options) end
+
+---A scene that scene:save wrote: it solves to the same numbers. The second result lists what has changed since, as files of meshes; it is also told as a warning.
+---@param path string
+---@return scene, string[]
+function scene.load(path) end
 
 ---Robots: what carries a dress pack
 robot = {}
