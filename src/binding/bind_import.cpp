@@ -246,7 +246,7 @@ void add_import(lua_State* L, Module& scene) {
       .tostring([](const ImportedHandle& h) { return describe_harness(*h.harness); });
   scene.function("import",
                  {.takes = {"path"}, .options = import_schema(), .returns = "scene, imported_harness",
-                  .does = "A harness file (.kbl) as a scene: a rod for every segment with the section of its bundle of wires, branch points, "
+                  .does = "A harness file (.kbl, .vec) as a scene: a rod for every segment with the section of its bundle of wires, branch points, "
                           "connectors and fixings as holds; and a report of what the file holds and how well it fits together.",
                   .example = std::string(example) + "print(#s.rods, harness.clips)  --> 3\t1\nprint(harness)"},
                  import);

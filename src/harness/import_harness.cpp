@@ -217,7 +217,7 @@ struct Reader {
   std::string_view suffix;
   HarnessFile (*parse)(std::string_view content, const std::string& path);
 };
-constexpr std::array readers = {Reader{".kbl", parse_kbl}};
+constexpr std::array readers = {Reader{".kbl", parse_kbl}, Reader{".vec", parse_vec}};
 
 /// "builtin:t_harness" comes with the program.
 std::string harness_path(const std::string& name) {
@@ -256,6 +256,8 @@ HarnessFile read_harness(const std::string& name) {
   std::transform(suffix.begin(), suffix.end(), suffix.begin(), [](unsigned char c) { return std::tolower(c); });
   const auto reader = std::find_if(readers.begin(), readers.end(), [&](const Reader& r) { return suffix == r.suffix; });
   if (reader == readers.end()) {
+    if (suffix == ".hmd")
+      throw UsageError("scene.import: '" + name + "': what .hmd files hold is not published; export the harness as .kbl or .vec");
     std::string known;
     for (const Reader& r : readers) known += (known.empty() ? "" : ", ") + std::string(r.suffix);
     throw UsageError("scene.import: '" + name + "': " + (suffix.empty() ? "a name without a suffix" : "'" + suffix + "'") +
