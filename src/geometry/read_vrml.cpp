@@ -7,6 +7,7 @@
 
 #include <Eigen/LU>
 
+#include "base/file_access.h"
 #include "base/write_file.h"
 #include "geometry/mesh_file.h"
 #include "geometry/read_vrml_faces.h"
@@ -127,6 +128,7 @@ class VrmlReader {
       const std::filesystem::path name = address.substr(0, 7) == "file://" ? address.substr(7) : address;
       const std::string path = (std::filesystem::path(from).parent_path() / name).lexically_normal().string();
       std::error_code error;
+      readable_path(path);  // before anything is told about a file
       if (!std::filesystem::is_regular_file(path, error)) {
         if (missing.empty()) missing = path;
         continue;

@@ -7,10 +7,12 @@
 #include "harness/centre_line.h"
 #include "harness/import_harness.h"
 #include "unit/geometry/mesh_files.h"
+#include "unit/geometry/random_mesh.h"
 
 using namespace tendril;
 using Catch::Contains;
 using tendril::test::Folder;
+using tendril::test::Random;
 
 namespace {
 
@@ -187,6 +189,33 @@ TEST_CASE("VEC: broken files say what is wrong with them, and where", "[vec]") {
   // Cut anywhere it is refused.
   const std::string text = tee();
   for (std::size_t size = 0; size + 1 < text.size(); size += 41) CHECK_THROWS_AS(parse_vec(text.substr(0, size), "t.vec"), UsageError);
+}
+
+TEST_CASE("VEC: damaged files are read or refused, never worse", "[vec]") {
+  const std::string sound = tee("<Knots>0 0 0 1 1 1</Knots>", positioned(quarter));
+  const unsigned seed = 29;
+  CAPTURE(seed);
+  Random random(seed);
+  int read = 0, refused = 0;
+  for (int trial = 0; trial < 3000; ++trial) {
+    std::string text = sound;
+    for (int k = 1 + random.below(3); k > 0; --k) {
+      const auto at = static_cast<std::size_t>(random.below(static_cast<int>(text.size())));
+      const char* pieces[] = {"0", "-1", "1e300", "9", "N2", "P1", "", "<", "</", "nan", " ", "U_mm2"};
+      text.replace(at, static_cast<std::size_t>(random.below(4)), pieces[random.below(12)]);
+    }
+    CAPTURE(trial);
+    try {
+      const HarnessFile file = parse_vec(text, "t.vec");
+      for (const HarnessNode& node : file.nodes) CHECK(node.at.allFinite());
+      for (const HarnessSegment& segment : file.segments) CHECK_FALSE(std::isnan(CentreLine(file, segment).length()));
+      ++read;
+    } catch (const UsageError&) {
+      ++refused;
+    }
+  }
+  CHECK(read > 50);
+  CHECK(refused > 300);
 }
 
 TEST_CASE("VEC: as a scene; .hmd is refused with a hint", "[vec]") {
