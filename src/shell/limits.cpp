@@ -23,6 +23,15 @@ namespace {
 
 constexpr long grace = 2;  // s
 
+// The shadow memory of a sanitizer counts as data, terabytes of it.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool has_shadow_memory = true;
+#elif defined(__has_feature)
+constexpr bool has_shadow_memory = __has_feature(address_sanitizer) || __has_feature(thread_sanitizer);
+#else
+constexpr bool has_shadow_memory = false;
+#endif
+
 // A signal handler has no other way to its data.
 std::atomic<bool> is_over{false};
 char over_text[64];
@@ -92,6 +101,7 @@ std::size_t usual_memory_limit() {
 
 void limit_memory(std::size_t bytes) {
   std::set_terminate(end_with_words);
+  if (has_shadow_memory) return;
   rlimit bound{};
   ::getrlimit(RLIMIT_DATA, &bound);
   bound.rlim_cur = std::min<rlim_t>(bytes, bound.rlim_max);
