@@ -15,6 +15,14 @@ void write_message(const std::string& text) {
 
 }  // namespace
 
+std::string duration_text(double seconds) {
+  const auto whole = static_cast<long>(std::min(1e9, std::max(0.0, seconds) + 0.5));
+  const long minutes = whole / 60, hours = minutes / 60;
+  if (hours > 0) return std::to_string(hours) + " h " + std::to_string(minutes % 60) + " min";
+  if (minutes > 0) return std::to_string(minutes) + " min " + std::to_string(whole % 60) + " s";
+  return std::to_string(whole) + " s";
+}
+
 Progress::Progress(lua::Context& context, bool shown) {
   if (!shown) return;
   context.progress = [this](double share, const char* what) { show(share, what); };
@@ -34,12 +42,13 @@ void Progress::show(double share, const char* what) {
   last_ = now;
   drawn_ = true;
   share = std::clamp(share, 0.0, 1.0);
-  char line[160];
+  std::string line = "\r\033[K" + std::string(what ? what : "");
   if (share > 0) {
-    const double left = passed * (1 - share) / share;
-    std::snprintf(line, sizeof line, "\r\033[K%s %3.0f %%, %.0f s left", what ? what : "", 100 * share, left);
+    char percent[16];
+    std::snprintf(percent, sizeof percent, " %3.0f %%, ", 100 * share);
+    line += percent + duration_text(passed * (1 - share) / share) + " left";
   } else {
-    std::snprintf(line, sizeof line, "\r\033[K%s %.0f s", what ? what : "", passed);
+    line += " " + duration_text(passed);
   }
   write_message(line);
 }

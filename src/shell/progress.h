@@ -3,10 +3,14 @@
 
 #include <chrono>
 #include <mutex>
+#include <string>
 
 #include "binding/lua_context.h"
 
 namespace tendril::shell {
+
+/// "8 s", "2 min 5 s", "1 h 12 min": what a person waits for.
+std::string duration_text(double seconds);
 
 /// Shows nothing in the first half second; then one line, with the time left, redrawn at most ten times a second and
 /// removed at the end. Shows nothing at all where the standard error is no terminal that understands it.

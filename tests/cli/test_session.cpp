@@ -242,3 +242,23 @@ TEST_CASE("a protocol that is none is an error", "[terminal]") {
   session.type("\x04");
   CHECK(session.finish() == 0);
 }
+
+TEST_CASE("what takes long says how far it is and what time is left, and takes the line away", "[terminal]") {
+  const Folder folder;
+  const std::string study = folder.file(
+      "long.lua",
+      "local s = scene.new{}\n"
+      "local r = rod.new{length = 1, segments = 40, section = rod.section{outer = 0.02, material = rod.material{young = 5e6, poisson = 0.4, density = 1100}}}\n"
+      "s:rod('hose', r, {from = frame{at = {0, 0, 0}, along = {1, 0, 0}}, to = frame{at = {0.9, 0, 0}, along = {1, 0, 0}}})\n"
+      "method.variation(s, {vary = {['hose.length'] = 0.01}, measure = {len = function(eq) return eq:rod('hose').length end}, outcomes = 100000, timeout = 3})\n"
+      "print('after' .. 'wards')");
+  TerminalSession session({study});
+  session.wait_for(" %, ");
+  session.wait_for(" left");
+  const std::string last = session.wait_for("afterwards");
+  CHECK_THAT(last, Contains("\r\033[Kafterwards"));
+  CHECK(session.finish() == 0);
+  const Outcome piped = run({study});
+  CHECK(piped.out == "afterwards\n");
+  CHECK(piped.err.find(" left") == std::string::npos);
+}
