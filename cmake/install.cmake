@@ -19,9 +19,9 @@ install_modules(${PROJECT_SOURCE_DIR}/src)
 
 install(DIRECTORY lua/ DESTINATION share/tendril/lua FILES_MATCHING PATTERN "*.lua")
 install(DIRECTORY scripts/studies/ DESTINATION share/tendril/studies FILES_MATCHING PATTERN "*.lua")
-install(DIRECTORY ${PROJECT_BINARY_DIR}/assets/six_axis DESTINATION share/tendril/assets)
+# All that the build puts there, but for what makes it.
 install(DIRECTORY ${PROJECT_BINARY_DIR}/assets/ DESTINATION share/tendril/assets
-        FILES_MATCHING PATTERN "*.ply" PATTERN "*.parts" PATTERN "CMakeFiles" EXCLUDE PATTERN "six_axis" EXCLUDE)
+        PATTERN "CMakeFiles" EXCLUDE PATTERN "*.cmake" EXCLUDE PATTERN "*.a" EXCLUDE PATTERN "make_*" EXCLUDE)
 
 install(FILES man/tendril.1 DESTINATION share/man/man1)
 install(FILES README.md DESTINATION share/doc/tendril)

@@ -9,6 +9,9 @@ local annotations = package.searchpath("meta/tendril", package.path)
 assert(annotations == share .. "/lua/meta/tendril.lua", annotations)
 assert(require "probe" == "found")  -- put there by the test
 
+-- A harness in a format of the industry.
+assert(scene.import("builtin:t_harness", {gravity = {0, 0, -9.81}}):solve().ok)
+
 -- A robot, which may touch itself.
 local arm = robot.load("builtin:six_axis")
 assert(#arm.joints == 6)

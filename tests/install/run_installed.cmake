@@ -32,6 +32,14 @@ foreach(name hose.png sag.png pipe.glb outcomes.sqlite)
   endif()
 endforeach()
 
+# Models and no more of the build than these.
+file(GLOB_RECURSE files RELATIVE ${PREFIX}/share/tendril/assets ${PREFIX}/share/tendril/assets/*)
+foreach(file ${files})
+  if(NOT file MATCHES "\\.(ply|parts|kbl|vec|urdf|xml|stl)$")
+    message(FATAL_ERROR "share/tendril/assets holds ${file}")
+  endif()
+endforeach()
+
 # Every study that was installed can be read, and the manual page is where man looks for it.
 file(GLOB studies ${PREFIX}/share/tendril/studies/*.lua)
 list(LENGTH studies count)
