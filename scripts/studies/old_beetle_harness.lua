@@ -1,5 +1,5 @@
 -- The main harness of a car, from its maker's KBL file: imported, settled under gravity with its fixings as clips. The ten
--- sharpest bends, the farthest sag, and the lengths against those that the file states. The file is not part of this project;
+-- sharpest bends, the farthest sag and what it hangs on, and the lengths against those that the file states. The file is not part of this project;
 -- without it the study says so and ends.
 --
 --   scripts/run scripts/studies/old_beetle_harness.lua [FILE.kbl] [out=FOLDER]
@@ -53,15 +53,25 @@ end
 print(("\nfarthest sag: %s, %.0f mm at s = %.0f mm of %.0f mm, %.0f mm of it downwards"):format(farthest.segment.rod,
   farthest.distance / mm, farthest.s / mm, farthest.segment.length / mm, -farthest.way.z / mm))
 
+local function sag(options)
+  options.gravity = {0, 0, -9.81}
+  local other, report = scene.import(file, options)
+  local there = other:solve{}
+  assert(there.ok, there.message)
+  return report.segments[tonumber(farthest.segment.rod:match("%d+$"))]:departure(there), there, other
+end
+
 -- How much of that hangs on the wires' slipping, which no file tells
-for _, slip in ipairs{0.5, 0.7} do
-  local stiffer = scene.import(file, {gravity = {0, 0, -9.81}, slip = slip})
-  local there = stiffer:solve{}
-  local most = 0
-  for _, segment in ipairs(harness.segments) do
-    if there.ok and segment.rod ~= "" then most = math.max(most, (segment:departure(there))) end
-  end
-  print(("slip %.1f: %s"):format(slip, there.ok and ("farthest sag %.0f mm"):format(most / mm) or there.message))
+print("\nslip of the wires in their bundles, and the sag of " .. farthest.segment.rod)
+for _, slip in ipairs{1.0, 0.85, 0.7, 0.5, 0.3} do print(("  %.2f  %4.0f mm"):format(slip, sag{slip = slip} / mm)) end
+
+-- Error against run time: the sag on ever finer elements
+print("\nlongest element, elements, sag, time")
+for _, element in ipairs{50 * mm, 25 * mm, 12.5 * mm, 6.25 * mm} do
+  local far, rest, other = sag{element = element}
+  local elements = 0
+  for _, name in ipairs(other.rods) do elements = elements + other:placed(name).design.segments end
+  print(("  %5.2f mm  %5d  %.2f mm  %.0f ms"):format(element / mm, elements, far / mm, rest.seconds * 1e3))
 end
 
 local picture = out .. "/old_beetle_harness.png"

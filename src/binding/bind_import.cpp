@@ -248,7 +248,7 @@ void add_import(lua_State* L, Module& scene) {
                  {.takes = {"path"}, .options = import_schema(), .returns = "scene, imported_harness",
                   .does = "A harness file (.kbl, .vec) as a scene: a rod for every segment with the section of its bundle of wires, branch points, "
                           "connectors and fixings as holds; and a report of what the file holds and how well it fits together.",
-                  .example = std::string(example) + "print(#s.rods, harness.clips)  --> 3\t1\nprint(harness)"},
+                  .example = std::string(example) + "print(#s.rods, harness.clips)  --> 3\t1"},
                  import);
 }
 
