@@ -9,6 +9,7 @@
 #include "binding/card.h"
 #include "binding/clearance_value.h"
 #include "binding/scene_cards.h"
+#include "binding/shell_services.h"
 #include "binding/lua_class.h"
 #include "binding/open.h"
 #include "binding/number_like.h"
@@ -172,6 +173,8 @@ void bind_equilibrium(lua_State* L) {
       .property("seconds_for_trees", "s", "Time to build the obstacles' trees, 0 when they stood already",
                 [](const SceneEquilibrium& e) { return e.seconds_for_trees; })
       .property("iterations", "", "Newton steps, all rods", [](const SceneEquilibrium& e) { return e.iterations(); })
+      .property("convergence", "", "Sizes of the steps of Newton's method (rad, or shares of the length), one an iteration, of the system that took the most",
+                [](const SceneEquilibrium& e) { return e.steps(); })
       .property("residual", "N", "Largest unbalanced force, or moment over length", [](const SceneEquilibrium& e) { return e.residual(); })
       .property("stable", "", "No negative eigenvalue", [](const SceneEquilibrium& e) { return e.stable(); })
       .property("modes", "", "Other stable equilibria for the same holds, by growing energy; nil unless solved with modes = true",
@@ -245,7 +248,9 @@ void bind_equilibrium(lua_State* L) {
               [](lua_State* L, Eq e, const MeasureArgument& measure, const std::vector<std::string>& parameters) {
                 return gradient_of(L, e, measure, parameters);
               })
-      .tostring(describe_equilibrium);
+      .operation("__tostring", [](lua_State* state, const SceneEquilibrium& e) -> std::string {
+        return describe_equilibrium(e, shell_services(state).unicode);
+      });
 }
 
 }  // namespace tendril::lua

@@ -115,6 +115,28 @@ std::string Card::text() const {
   return text;
 }
 
+std::string sparkline(const std::vector<double>& values, bool unicode, std::size_t most) {
+  static constexpr const char* blocks[] = {"\u2581", "\u2582", "\u2583", "\u2584", "\u2585", "\u2586", "\u2587", "\u2588"};
+  static constexpr const char* letters[] = {"_", ".", "-", "~", "=", "+", "*", "#"};
+  const std::size_t count = std::min(values.size(), std::max<std::size_t>(2, most));
+  std::vector<double> shown;
+  for (std::size_t i = 0; i < count; ++i) shown.push_back(values[count < 2 ? i : i * (values.size() - 1) / (count - 1)]);
+  double low = INFINITY, high = -INFINITY;
+  for (double& value : shown) {
+    value = value > 0 ? std::log10(value) : -INFINITY;
+    if (!std::isfinite(value)) continue;
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+  std::string text;
+  for (const double value : shown) {
+    const double share = std::isfinite(value) ? (high > low ? (value - low) / (high - low) : 1) : value > 0 ? 1 : 0;
+    const int level = std::clamp(static_cast<int>(share * 8), 0, 7);
+    text += unicode ? blocks[level] : letters[level];
+  }
+  return text;
+}
+
 std::string table_text(const std::vector<std::string>& head, const std::vector<std::vector<std::string>>& rows) {
   std::vector<std::size_t> columns;
   std::vector<bool> numeric(head.size(), true);

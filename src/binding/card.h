@@ -38,4 +38,8 @@ class Card {
 /// are filled up. No newline at the end.
 std::string table_text(const std::vector<std::string>& head, const std::vector<std::vector<std::string>>& rows);
 
+/// Numbers as a row of bars on a logarithmic scale, the largest the highest; zero and less are the lowest. Of more than `most` as
+/// many evenly spread ones, the last among them. `unicode`: block characters, else ASCII.
+std::string sparkline(const std::vector<double>& values, bool unicode, std::size_t most = 40);
+
 }  // namespace tendril

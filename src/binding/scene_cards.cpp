@@ -106,12 +106,14 @@ std::string describe_scene(const Scene& scene) {
   return card.text();
 }
 
-std::string describe_equilibrium(const SceneEquilibrium& eq) {
+std::string describe_equilibrium(const SceneEquilibrium& eq, bool unicode) {
   Card card("equilibrium");
   card.row("status", status_of(eq), eq.ok() ? "" : eq.message());
   card.row("time", eq.seconds, "s", count(eq.iterations(), "iteration", "iterations"));
   if (eq.seconds_for_trees > 1e-3) card.row("time for distance trees", eq.seconds_for_trees, "s", "once");
   card.row("residual", eq.residual(), "N");
+  if (const std::vector<double> steps = eq.steps(); steps.size() > 1)
+    card.row("convergence", sparkline(steps, unicode), "steps of Newton's method, " + plain_number(steps.front()) + " to " + plain_number(steps.back()));
   if (const auto error = eq.error())
     card.row("estimated error", error->valid ? quantity(error->value, "m") : "not valid", error->valid ? "" : error->why);
   const Energy energy = eq.energy();

@@ -12,7 +12,7 @@ std::string describe_rod(const Rod& rod);
 std::string describe_placed(const PlacedRod& rod);
 std::string describe_scene(const Scene& scene);
 
-std::string describe_equilibrium(const SceneEquilibrium& equilibrium);
+std::string describe_equilibrium(const SceneEquilibrium& equilibrium, bool unicode);  ///< `unicode`: block characters may be used
 std::string describe_solved_rod(const SolvedRodHandle& rod);
 std::string describe_energy(const Energy& energy);
 std::string describe_clearance(const ClearanceValue& clearance);

@@ -76,6 +76,15 @@ int SceneEquilibrium::iterations() const {
   return sum;
 }
 
+std::vector<double> SceneEquilibrium::steps() const {
+  std::vector<double> longest;
+  for (const SolvedSystem& system : systems) {
+    const std::vector<double>& own = rods[system.rods.front()].equilibrium.steps;
+    if (own.size() > longest.size()) longest = own;
+  }
+  return longest;
+}
+
 double SceneEquilibrium::residual() const {
   double largest = 0;
   for (const SolvedRod& rod : rods) largest = std::max(largest, rod.equilibrium.residual);

@@ -61,6 +61,7 @@ struct SceneEquilibrium {
   Status status() const;          ///< the worst of the rods': cancelled, timeout, infeasible, stalled, solved
   std::string message() const;    ///< "solved", or each rod that is not, by name, and why
   int iterations() const;         ///< sum over the systems
+  std::vector<double> steps() const;  ///< of Newton's method, as in Equilibrium, in the system that took the most of them
   double residual() const;        ///< N, the largest of the rods'
   bool stable() const;            ///< every rod is stable
   Energy energy() const;          ///< J, summed over the rods

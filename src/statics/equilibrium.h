@@ -51,6 +51,7 @@ struct Equilibrium {
   double seconds = 0;
   int iterations = 0;        ///< factorisations
   double residual = 0;       ///< largest unbalanced force (N) or moment over length (N)
+  std::vector<double> steps; ///< sizes of the steps that Newton's method asked for, one an iteration; as last_step
   double last_step = 0;      ///< rotations in rad, positions relative to the length
   /// No negative eigenvalue of the energy's second derivative. Dead moments have no energy: then of its symmetric part,
   /// which is sufficient, not necessary.

@@ -81,11 +81,12 @@ int vertices_of(const RodNetwork& network) {
 }
 
 /// One verdict for all rods of the system.
-void set_verdict(const NewtonOutcome& outcome, const std::string& message, SystemEquilibrium& out) {
+void set_verdict(const NewtonOutcome& outcome, const std::string& message, const std::vector<double>& steps, SystemEquilibrium& out) {
   for (Equilibrium& rod : out.rods) {
     rod.status = outcome.status;
     rod.iterations = outcome.iterations;
     rod.last_step = outcome.last_step;
+    rod.steps = steps;
     rod.negative_pivots = outcome.negative_pivots;
     rod.stable = rod.ok() && outcome.negative_pivots == 0;
     rod.message = message;
@@ -228,6 +229,7 @@ NewtonOutcome NetworkSolver::by_staggered(RodState& state, int most, const RunCo
   RodState there = other.network_->state_from(start.rods, start.branches);
   int its_fallbacks = 0;
   NewtonOutcome outcome = other.with_fallbacks(there, false, context, its_fallbacks);
+  newton_.add_to_record(other.newton_.record());
   if (outcome.status != Status::solved) return outcome;
   SystemEquilibrium found;
   other.describe(there, found);
@@ -263,6 +265,7 @@ SystemEquilibrium NetworkSolver::solve_in_contact(const RunContext& context, con
       state = std::move(*aside);
       from = nullptr;
     }
+  contact_->newton().begin_record();
   const ContactOutcome outcome = contact_->run(state, from, context);
   describe(state, out);
   const bool solved = outcome.newton.status == Status::solved;
@@ -270,7 +273,7 @@ SystemEquilibrium NetworkSolver::solve_in_contact(const RunContext& context, con
               solved                    ? "solved"
               : outcome.message.empty() ? explain_failure(outcome.newton, *network_)
                                         : outcome.message,
-              out);
+              contact_->newton().record(), out);
   for (Equilibrium& rod : out.rods) rod.fallbacks = outcome.fallbacks;
   return out;
 }
@@ -321,6 +324,7 @@ SystemEquilibrium NetworkSolver::solve(const RunContext& context, const SystemEq
 SystemEquilibrium NetworkSolver::solve_from(RodState state, bool warm, const RunContext& context) {
   SystemEquilibrium out;
   int fallbacks = 0;
+  newton_.begin_record();
   const NewtonOutcome outcome = with_fallbacks(state, warm, context, fallbacks);
   const bool solved = outcome.status == Status::solved, substituted = solved && substitute_;
   if (substituted)
@@ -331,7 +335,7 @@ SystemEquilibrium NetworkSolver::solve_from(RodState state, bool warm, const Run
               substituted ? "solved with the staggered element: the segments are too long for the tension in them"
               : solved    ? "solved"
                           : explain_failure(outcome, *network_),
-              out);
+              newton_.record(), out);
   for (Equilibrium& rod : out.rods) rod.fallbacks = fallbacks;
   return out;
 }

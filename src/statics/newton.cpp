@@ -141,6 +141,7 @@ NewtonOutcome Newton::run(RodState& state, const NewtonOptions& options, const R
     linear_.solve(state, step_);
     const double size = network_.size_of(step_);
     if (!std::isfinite(size)) return out;
+    record_.push_back(size);
 
     std::optional<double> share = guarded_share(state, damped(size) * std::min(1.0, largest_step / size));
     if (!share) continue;

@@ -63,6 +63,11 @@ class Newton {
   /// Moves `state` to an equilibrium, or as far as it gets.
   NewtonOutcome run(RodState& state, const NewtonOptions& options, const RunContext& context);
 
+  /// Sizes of the steps that the method asked for in all runs since the record was begun: how the computation converged.
+  const std::vector<double>& record() const { return record_; }
+  void begin_record() { record_.clear(); }
+  void add_to_record(const std::vector<double>& sizes) { record_.insert(record_.end(), sizes.begin(), sizes.end()); }
+
  private:
   void assemble(const RodState& state);
   std::optional<double> guarded_share(const RodState& state, double share);
@@ -78,6 +83,7 @@ class Newton {
   FurtherTerms* further_;
   StepSystem linear_;
   std::vector<Vec6> step_, scratch_;
+  std::vector<double> record_;
   double energy_ = 0;
 
   // How the computation stands.

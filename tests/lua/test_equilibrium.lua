@@ -16,6 +16,11 @@ check.case("how it went", function()
   check.is_true(eq.stable)
   check.is_true(eq.seconds > 0 and eq.seconds < 60)
   check.is_true(eq.iterations >= 2 and eq.iterations < 50)
+  local steps = eq.convergence
+  check.is_true(#steps >= 2 and #steps <= eq.iterations)
+  for i, step in ipairs(steps) do check.is_true(step >= 0 and step < math.huge) end
+  check.is_true(steps[#steps] < 1e-6 and steps[1] > 1e3 * steps[#steps])
+  check.is_true(tostring(eq):find("convergence", 1, true) and tostring(eq):find("steps of Newton's method", 1, true))
   check.is_true(eq.residual < 1e-6)
   check.equal(eq.deepest_penetration, 0.0)
   check.contains(eq, "solved, stable", "min bend radius", "'floor'", "required 8 mm")

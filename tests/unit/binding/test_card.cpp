@@ -1,4 +1,5 @@
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <limits>
 
 #include "binding/card.h"
@@ -64,4 +65,23 @@ TEST_CASE("a table aligns its columns, numbers to the right") {
         "a       10  x\n"
         "longer   5");
   CHECK(table_text({"a"}, {}) == "a");
+}
+
+TEST_CASE("a row of bars on a logarithmic scale") {
+  using tendril::sparkline;
+  CHECK(sparkline({}, true).empty());
+  CHECK(sparkline({5}, false) == "#");
+  CHECK(sparkline({1, 1, 1}, false) == "###");
+  CHECK(sparkline({1e8, 1e7, 1e6, 1e5, 1e4, 1e3, 1e2, 1e1, 1e0}, false) == "##*+=~-._");
+  CHECK(sparkline({1e8, 1e4, 1e0}, true) == "\u2588\u2585\u2581");
+  CHECK(sparkline({1, 0, -1, std::numeric_limits<double>::quiet_NaN(), 1e-3}, false) == "#____");
+  // Of many as many as there is room for, the first and the last among them.
+  std::vector<double> falling;
+  for (int i = 0; i < 1000; ++i) falling.push_back(std::pow(10, -i / 100.0));
+  const std::string bars = sparkline(falling, false, 16);
+  CHECK(bars.size() == 16);
+  CHECK(bars.front() == '#');
+  CHECK(bars.back() == '_');
+  const std::string heights = "_.-~=+*#";
+  for (std::size_t i = 1; i < bars.size(); ++i) CHECK(heights.find(bars[i]) <= heights.find(bars[i - 1]));
 }
