@@ -10,4 +10,6 @@ namespace tendril {
 /// mark for each of its bytes above 127: readers refuse a whole file for one bad byte.
 std::string json_string(std::string_view text);
 
+bool is_utf8(std::string_view text);
+
 }  // namespace tendril

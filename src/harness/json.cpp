@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/json_text.h"
+#include "base/printable.h"
 
 namespace tendril {
 namespace {
@@ -90,18 +92,8 @@ void append_number(std::string& text, double number) {
 }
 
 void append_word(std::string& text, std::string_view word) {
-  text += '"';
-  for (const char c : word) {
-    if (c == '"' || c == '\\') (text += '\\') += c;
-    else if (c == '\n') text += "\\n";
-    else if (c == '\t') text += "\\t";
-    else if (c == '\r') text += "\\r";
-    else if (static_cast<unsigned char>(c) < 0x20) {
-      constexpr const char* hex = "0123456789abcdef";
-      text += std::string("\\u00") + hex[c >> 4] + hex[c & 15];
-    } else text += c;
-  }
-  text += '"';
+  if (!is_utf8(word)) throw UsageError("the text '" + printable(word, 60) + "' is not UTF-8, which JSON needs");
+  text += json_string(word);
 }
 
 bool is_scalar(const Json& json) { return json.value.index() < 4; }
@@ -196,9 +188,7 @@ Json parse_json(std::string_view text, const std::string& who) {
     const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(builder.position, text.size()));
     where = "line " + std::to_string(1 + std::count(text.begin(), end, '\n')) + ": ";
   }
-  constexpr std::size_t longest = 400;
-  if (builder.wrong.size() > longest) builder.wrong = builder.wrong.substr(0, longest) + " ...";
-  throw UsageError(who + ": " + where + builder.wrong);
+  throw UsageError(who + ": " + where + printable(builder.wrong, 400));
 }
 
 std::string json_text(const Json& json) {

@@ -34,7 +34,7 @@ Json parse_json(std::string_view text, const std::string& who);
 
 /// Two blanks of indentation, a member a line; what holds only numbers, words and lists of numbers on one line where it is short
 /// enough, lists of numbers always. Numbers have as few digits as give the same bits again, the sign of zero included. A pure
-/// function of the value. Numbers must be finite.
+/// function of the value. Numbers must be finite; throws UsageError for texts that are not UTF-8.
 std::string json_text(const Json& json);
 
 }  // namespace tendril

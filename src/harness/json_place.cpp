@@ -4,6 +4,7 @@
 
 #include "base/nearest_name.h"
 #include "base/number_text.h"
+#include "base/printable.h"
 
 namespace tendril {
 namespace {
@@ -12,14 +13,16 @@ std::string described(const Json& json) {
   if (const bool* flag = std::get_if<bool>(&json.value)) return *flag ? "true" : "false";
   if (const double* number = std::get_if<double>(&json.value)) return number_text(*number);
   if (const std::string* word = std::get_if<std::string>(&json.value))
-    return '"' + (word->size() <= 40 ? *word : word->substr(0, 40) + "...") + '"';
+    return '"' + printable(*word, 60) + '"';
   if (const auto* list = std::get_if<Json::List>(&json.value)) return "a list of " + std::to_string(list->size());
   return std::holds_alternative<Json::Object>(json.value) ? "an object" : "null";
 }
 
 }  // namespace
 
-void JsonPlace::fail(const std::string& why) const { throw UsageError(who_ + ": " + (path_.empty() ? "" : path_ + ": ") + why); }
+void JsonPlace::fail(const std::string& why) const {
+  throw UsageError(who_ + ": " + (path_.empty() ? "" : path_ + ": ") + printable(why, 500));
+}
 
 void JsonPlace::expected(const char* what) const { fail("got " + described(json_) + ", expected " + what); }
 

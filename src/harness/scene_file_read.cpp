@@ -181,8 +181,14 @@ class Reader {
     return place.has(key) ? place[key].items() : std::vector<JsonPlace>();
   }
 
-  std::string whole_path(const std::string& name) const {
-    return fs::path(name).is_absolute() ? name : (folder_ / name).lexically_normal().string();
+  /// Where a file that is named here lies. Devices and pipes, which never end, are refused.
+  std::string whole_path(const JsonPlace& place) const {
+    const fs::path name = place.text();
+    const std::string path = (name.is_absolute() ? name : folder_ / name).lexically_normal().string();
+    std::error_code unknown;
+    const fs::file_status status = fs::status(path, unknown);
+    if (fs::exists(status) && !fs::is_regular_file(status)) place.fail("'" + path + "' is not a file");
+    return path;
   }
 
   void compare(const JsonPlace& place, const std::string& path) {
@@ -210,7 +216,7 @@ class Reader {
       return;
     }
     place.only({"file", "unit", "checksum"});
-    obstacle.file = MeshFile{whole_path(place["file"].text()), place["unit"].number()};
+    obstacle.file = MeshFile{whole_path(place["file"]), place["unit"].number()};
     obstacle.body.shape = read_mesh_file(place, *obstacle.file);
   }
 
@@ -248,8 +254,9 @@ class Reader {
     robot.name = place["name"].text();
     const std::string& source = place["robot"].text();
     const bool builtin = source.starts_with("builtin:");
-    place["robot"].guarded([&] { robot.robot = load_robot(builtin ? source : whole_path(source)); });
-    if (!builtin) compare(place, whole_path(source));
+    const std::string path = builtin ? source : whole_path(place["robot"]);
+    place["robot"].guarded([&] { robot.robot = load_robot(path); });
+    if (!builtin) compare(place, path);
     if (place.has("base")) robot.base = place["base"].frame();
     if (place.has("joints")) robot.joints = place["joints"].numbers();
     robot.clearance = place.has("clearance") ? place["clearance"].at_least(0) : 0;

@@ -63,8 +63,14 @@ class Names {
     const fs::path whole = fs::absolute(file).lexically_normal(), seen = whole.lexically_relative(folder_);
     constexpr int most_up = 2;
     int up = 0;
-    for (const fs::path& part : seen) up += part == "..";
-    return (seen.empty() || up > most_up ? whole : seen).generic_string();
+    fs::path common = folder_;
+    for (const fs::path& part : seen) {
+      if (part != "..") break;
+      common = common.parent_path();
+      ++up;
+    }
+    const bool near = !seen.empty() && up <= most_up && common != common.root_path();  // all have the root in common
+    return (near ? seen : whole).generic_string();
   }
 
  private:
@@ -212,10 +218,15 @@ std::string scene_text(const Scene& scene, const std::string& path, const SaveSc
   for (const PlacedRobot& robot : scene.robots()) robots.emplace_back(json_of(robot, names));
   for (const auto& rod : scene.rods()) rods.emplace_back(json_of(*rod, scene));
   for (const auto& branch : scene.branches()) branches.emplace_back(json_of(*branch));
-  return json_text(Members().add("format", "tendril scene").add("version", scene_file_version).add("units", "m, kg, s, N, rad")
+  const Json file = Members().add("format", "tendril scene").add("version", scene_file_version).add("units", "m, kg, s, N, rad")
                        .add("gravity", json_of(scene.gravity())).add("obstacles", Json{std::move(obstacles)})
                        .add("robots", Json{std::move(robots)}).add("rods", Json{std::move(rods)})
-                       .add("branches", Json{std::move(branches)}));
+                       .add("branches", Json{std::move(branches)});
+  try {
+    return json_text(file);
+  } catch (const UsageError& wrong) {
+    throw UsageError(std::string("scene:save: ") + wrong.what());
+  }
 }
 
 void save_scene(const std::string& path, const Scene& scene, const SaveSceneOptions& options) {

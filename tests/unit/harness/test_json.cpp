@@ -116,11 +116,13 @@ TEST_CASE("json: what is none is refused with its place") {
   CHECK_THAT(error_of(objects), Contains("nested deeper than 32"));
   CHECK_NOTHROW(parse_json(std::string(32, '[') + std::string(32, ']'), "file"));
   CHECK(error_of("[\"" + std::string(100'000, 'x')).size() < 1000);
+  CHECK_THROWS_WITH(json_text({std::string("caf\xe9")}), Contains("is not UTF-8"));
+  CHECK(error_of("{\"\x1b[31m").find('\x1b') == std::string::npos);
 }
 
 TEST_CASE("json place: kinds, ranges and unknown keys are told by their path") {
   const Json json = parse_json("{\"rods\": [{\"name\": \"a\", \"length\": 1, \"clip\": true, \"at\": [1, 2, \"x\"], \"none\": null,"
-                               " \"long\": \"0123456789012345678901234567890123456789abc\"}]}", "file");
+                               " \"long\": \"01234567890123456789012345678901234567890123456789012345678901234567890123456789abc\"}]}", "file");
   const std::string who = "load";
   const JsonPlace rod = JsonPlace(json, who)["rods"].items().front();
   CHECK(rod["name"].text() == "a");
@@ -137,7 +139,7 @@ TEST_CASE("json place: kinds, ranges and unknown keys are told by their path") {
   CHECK_THROWS_WITH(rod["at"].vector(), "load: rods[1].at[3]: got \"x\", expected a number");
   CHECK_THROWS_WITH(rod["clip"].vector(), "load: rods[1].clip: got true, expected a list of 3 numbers");
   CHECK_THROWS_WITH(rod["none"].numbers(), "load: rods[1].none: got null, expected a list");
-  CHECK_THROWS_WITH(rod["long"].number(), Contains("0123456789...\", expected a number"));
+  CHECK_THROWS_WITH(rod["long"].number(), Contains("...") && Contains("expected a number"));
   CHECK_THROWS_WITH(rod["shape"], "load: rods[1]: 'shape' is missing");
   CHECK_THROWS_WITH(rod.only({"name", "length", "clips", "at", "none", "long"}),
                     Contains("load: rods[1]: unknown key 'clip'; did you mean 'clips'?"));

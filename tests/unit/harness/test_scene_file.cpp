@@ -141,6 +141,9 @@ TEST_CASE("scene file: meshes and robots in files are found from another folder,
   save_scene(folder / "moved/below/deep/er/c.scene.json", *loaded.scene);
   CHECK_THAT(read_file(folder / "moved/below/deep/er/c.scene.json"), Contains("\"" + (folder / "moved/assets/sheet.stl") + "\""));
 
+  // What has nothing but the root in common is named by its whole path.
+  CHECK_THAT(scene_text(*loaded.scene, "/nowhere.scene.json"), Contains("\"" + (folder / "moved/assets/sheet.stl") + "\""));
+
   // Inside the file itself the mesh needs no other file.
   save_scene(folder / "embedded.scene.json", *loaded.scene, {.embed = true});
   save_mesh(folder / "moved/assets/sheet.stl", sheet.moved({0, 0, 1}, Quat::Identity()), units::mm);
@@ -222,6 +225,11 @@ TEST_CASE("scene file: what is wrong is told by its place") {
   CHECK_THAT(error_of("\"rods\": [", "\"rods\": " + std::string(100'000, '[')), Contains("nested deeper than 32"));
   CHECK_THAT(error_of("\"force\": [0, 0.2, -0.1]", "\"force\": [0, 0.2, true]"), Contains("rods[1].loads[1].force[3]: got true, expected a number"));
   CHECK_THAT(error_of("\"slide\": true", "\"robot\": \"arm\", \"link\": \"x\""), Contains("rods[1].holds[2]: ") && Contains("unknown robot 'arm'"));
+  CHECK_THAT(error_of("\"robots\": []", "\"robots\": [{\"name\": \"a\", \"robot\": \"/dev/zero\"}]"),
+             Contains("robots[1].robot: '/dev/zero' is not a file"));
+  CHECK_THAT(error_of("\"solid\": {\"kind\": \"box\", \"size\": [1, 1, 0.1]}", "\"mesh\": {\"file\": \"/dev\", \"unit\": 1}"),
+             Contains("obstacles[1].mesh.file: '/dev' is not a file"));
+  CHECK(error_of("\"name\": \"left\"", "\"na\\u001bme\": \"left\"").find('\x1b') == std::string::npos);
   CHECK_THAT(error_of("\"robots\": []", "\"robots\": [{\"name\": \"a\", \"robot\": \"builtin:none\"}]"), Contains("robots[1].robot: ") && Contains("'none'"));
 }
 
@@ -285,6 +293,9 @@ TEST_CASE("scene file: what a file cannot hold is named") {
   rod.length = rod.parts.back().upto = 0.5;
   stretched.add(PlacedRod("half", rod, Frame{}, std::nullopt));
   CHECK_THROWS_WITH(scene_text(stretched, "x.json"), Contains("rod 'half'") && Contains("not as long as the rod"));
+  Scene latin;
+  latin.add(PlacedRod("caf\xe9", Rod::uniform(1, testing::soft_section()), Frame{}, std::nullopt));
+  CHECK_THROWS_WITH(scene_text(latin, "x.json"), StartsWith("scene:save: ") && Contains("is not UTF-8"));
   Scene robots;
   robots.add(PlacedRobot{"arm", std::make_shared<const Robot>(planar_arm({1})), {}});
   CHECK_THROWS_WITH(scene_text(robots, "x.json"), Contains("robot 'arm' was not loaded from a file"));
