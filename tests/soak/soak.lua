@@ -12,7 +12,7 @@ local folder = os.tmpname() .. ".soak"
 assert(os.execute("mkdir -p '" .. folder .. "'"))
 
 -- Those that take long come less often.
-local shares = {equilibrium = 30, variation = 6, route = 3, preform = 3, assembly = 1, picture = 2, saved = 8, robot = 10, errors = 60, stopped = 10}
+local shares = {equilibrium = 30, variation = 6, route = 3, preform = 3, assembly = 1, picture = 2, saved = 2, robot = 10, errors = 60, stopped = 10}
 local kinds, order = {}, {}
 for kind, share in pairs(shares) do order[#order + 1] = kind for _ = 1, share do kinds[#kinds + 1] = kind end end
 table.sort(kinds)
