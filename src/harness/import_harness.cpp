@@ -168,7 +168,6 @@ void HarnessImport::add_clips(const HarnessSegment& segment, const LineFrames& f
       continue;
     }
     hold.frame = frames.at(hold.at);
-    hold.at = fixing.location * rod.rod().length;
     hold.orientation = options_.clips != HarnessClip::swivel;
     hold.slide = options_.clips == HarnessClip::slide;
     if (rod.hold_at(hold.at)) continue;  // two fixings at one place
