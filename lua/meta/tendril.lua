@@ -556,6 +556,7 @@ function solved_rod_methods:at(s) end
 ---A scene in static equilibrium, as it was when it was solved
 ---@class equilibrium
 ---@field contacts (contact)[] Forces of the surroundings on the rods
+---@field convergence (number)[] Sizes of the steps of Newton's method (rad, or shares of the length), one an iteration, of the system that took the most
 ---@field deepest_penetration number 0 without contact (m)
 ---@field eigenvalues (number)[]? Softest first: stiffness against the softest disturbances, a pure number (EI/L^2 times a turn's share of the length); negative: unstable; nil unless solved with modes = true
 ---@field energy energy By term (J)
@@ -1886,7 +1887,7 @@ function scene.mesh(source, options) end
 ---@field slip? number How freely wires slip in their bundles, 1 freely, 0 not at all; default as in rod.bundle (0 ... 1)
 ---@field element? number Longest element of a rod; bends make them shorter (m; 0.0001 ... 10; default 0.025)
 
----A harness file (.kbl) as a scene: a rod for every segment with the section of its bundle of wires, branch points, connectors and fixings as holds; and a report of what the file holds and how well it fits together.
+---A harness file (.kbl, .vec) as a scene: a rod for every segment with the section of its bundle of wires, branch points, connectors and fixings as holds; and a report of what the file holds and how well it fits together.
 ---@param path string
 ---@param options? tendril.scene.import.options
 ---@return scene, imported_harness
