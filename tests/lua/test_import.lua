@@ -35,7 +35,7 @@ check.case("a harness becomes a scene with rods, a branch point and a clip", fun
   check.equal(#again.rods, 3)
   for i, segment in ipairs(settled.segments) do
     check.near(segment.length, eq:rod(harness.segments[i].rod).length, 0.05 * mm)
-    check.near(segment.length, segment.stated_length, 0.01 * mm)
+    if harness.segments[i].stated_length > 0 then check.near(segment.length, segment.stated_length, 0.01 * mm) end
   end
 end)
 
