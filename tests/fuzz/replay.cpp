@@ -43,7 +43,8 @@ void on_failure(int signal) {
 }
 
 void guard(const char* program) {
-  std::snprintf(failed_file, sizeof failed_file, "%s.failed", std::filesystem::path(program).filename().c_str());
+  const auto file = std::filesystem::current_path() / std::filesystem::path(program).filename();  // a target may change the folder
+  std::snprintf(failed_file, sizeof failed_file, "%s.failed", file.c_str());
   for (const int number : {SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGPROF}) std::signal(number, on_failure);
 #ifndef __SANITIZE_ADDRESS__
   const rlimit bound{most_memory, most_memory};
