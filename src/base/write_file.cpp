@@ -63,7 +63,10 @@ void write_file(const std::string& name, std::string_view content) {
 
 std::string read_file(const std::string& name) {
   const std::string path = readable_path(name);
-  if (std::filesystem::is_directory(path)) fail("cannot read", path, "it is a folder");
+  std::error_code missing;
+  const std::filesystem::file_status kind = std::filesystem::status(path, missing);
+  if (std::filesystem::is_directory(kind)) fail("cannot read", path, "it is a folder");
+  if (std::filesystem::is_character_file(kind) || std::filesystem::is_block_file(kind)) fail("cannot read", path, "it is a device, which may never end");
   std::ifstream in(path, std::ios::binary);
   if (!in) fail("cannot read", path, std::strerror(errno));
   // Room for the whole at once where the size is known; pipes and the like grow as they are read.

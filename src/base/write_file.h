@@ -11,7 +11,7 @@ namespace tendril {
 /// (base/processes.h) only the first one writes.
 void write_file(const std::string& path, std::string_view content);
 
-/// The whole file as bytes. Throws UsageError naming the path and the reason.
+/// The whole file as bytes; a pipe until its end. Throws UsageError naming the path and the reason, also for folders and devices.
 std::string read_file(const std::string& path);
 
 }  // namespace tendril

@@ -212,6 +212,25 @@ TEST_CASE("endless recursion and options of every odd kind end in named errors")
   refuses(box, code, words);
 }
 
+TEST_CASE("a script that takes the scene away from under a computation gets its result or an error") {
+  const Box box;
+  const std::string take = "s:remove('a') s:rod('b' .. math.random(1, 1e9), hose, {}) s:obstacle('o' .. math.random(1, 1e9), scene.sphere{radius = 1}, {}) collectgarbage() ";
+  const auto code = GENERATE(as<std::string>(),
+                             "method.variation(s, {outcomes = 4, vary = {['a.length'] = {tolerance = 0.01}}, measure = {l = function(e) TAKE return 1 end}})",
+                             "method.stability(s, {vary = {['a.length'] = 0.01}, measure = {l = function(e) TAKE return 1 end}})",
+                             "s:motion{steps = 5, holds = {['a.finish'] = function(t) TAKE return frame{at = {0.8, 0, 0.1 * t}, along = {1, 0, 0}} end}}",
+                             "method.route(s, {from = frame{at = {0, 0, 0}, along = {1, 0, 0}}, to = frame{at = {0.8, 0, 0}, along = {1, 0, 0}},\n"
+                             "section = hose.section, min_bend_radius = 0.1, progress = function() TAKE end})",
+                             "s:solve{}:gradient(function(e) TAKE return 1 end, {'a.length'})",
+                             "local p, eq = s:placed('a'), s:solve{} TAKE print(eq:rod('a').length, eq:clearance{}) p:hold(0.5, frame{at = {0, 0, 0}, along = {1, 0, 0}}, {})");
+  INFO(code);
+  std::string whole = code;
+  whole.replace(whole.find("TAKE"), 4, take);
+  const Outcome o = box(std::string(hose) + whole, {"--seconds", "20"});
+  CHECK((o.code == 0 || o.code == 1));
+  CHECK((o.code == 0 ? o.err.empty() : o.err.find("s.lua:") != o.err.npos));
+}
+
 TEST_CASE("what the sandbox leaves") {
   const Box box;
   CHECK(box("print(os.time() > 0, os.clock() >= 0, #os.date() > 0, os.difftime(2, 1))").out == "true\ttrue\ttrue\t1.0\n");

@@ -80,4 +80,5 @@ TEST_CASE("write_file: an existing file is kept when the new one cannot be writt
 TEST_CASE("read_file: what is not there is named") {
   CHECK_THROWS_WITH(read_file("/nowhere/at/all"), Contains("/nowhere/at/all"));
   CHECK_THROWS_WITH(read_file("/"), Contains("/"));
+  CHECK_THROWS_WITH(read_file("/dev/zero"), "cannot read '/dev/zero': it is a device, which may never end");
 }
