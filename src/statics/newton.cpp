@@ -161,8 +161,10 @@ NewtonOutcome Newton::run(RodState& state, const NewtonOptions& options, const R
     }
     if (linear_.shift() > 0 && out.last_step < saddle_step && mode_moves_ < most_mode_moves) leave_saddle(state);
     if (full) linear_.relax_shift();
-    // Close to the solution the predicted wrench can keep the steps from shrinking; there the actual one is sound.
-    lingering_ = size < quadratic_regime && (lingering_ || size > lingering_ratio * previous_size_);
+    // Close to the solution of a large network the predicted wrench can keep the steps from shrinking; there the actual one is sound.
+    // A single rod that lingers does so along a nearly neutral direction, on which the predicted one is the safer guide; steps in
+    // contact shrink slowly for reasons of their own.
+    lingering_ = !further_ && network_.rods() > 1 && size < quadratic_regime && (lingering_ || size > lingering_ratio * previous_size_);
     previous_size_ = size;
     stress_ = options.descend || lingering_ ? Stress::actual : size > rough_step ? Stress::rough : Stress::predicted;
   }

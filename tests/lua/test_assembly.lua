@@ -122,7 +122,7 @@ check.case("files: every grip at every time", function()
 end)
 
 check.case("errors name what is wrong", function()
-  check.raises(function() a:save("paths.txt") end, "assembly:save", "'paths.txt'", ".csv or .json")
+  check.raises(function() a:save("paths.txt") end, "assembly:save", "'paths.txt'", ".csv, .json or .glb")
   check.raises(function() a:frame(1.5) end, "assembly:frame", "1.5", "0 to 1")
   check.raises(function() a.paths[1](2) end, "grip_path", "0 to 1")
   check.raises(function() return a.paths["hose.begin"] end, "hose.begin")
