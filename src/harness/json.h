@@ -14,7 +14,7 @@ struct JsonMember;
 struct Json {
   using List = std::vector<Json>;
   using Object = std::vector<JsonMember>;
-  std::variant<std::nullptr_t, bool, double, std::string, List, Object> value = nullptr;
+  std::variant<std::nullptr_t, bool, double, std::string, List, Object> value;
 
   const Json* find(std::string_view key) const;  ///< of an object; null: no such member, or no object
   Json* find(std::string_view key);

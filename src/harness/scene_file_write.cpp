@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 class Members {
  public:
   Members& add(const char* key, Json value) {
-    object_.emplace_back(key, std::move(value));
+    object_.push_back({key, std::move(value)});
     return *this;
   }
   Members& add(const char* key, double value) { return add(key, Json{value}); }
@@ -34,7 +34,7 @@ class Members {
 
 Json json_of(std::initializer_list<double> numbers) {
   Json::List list;
-  for (const double x : numbers) list.emplace_back(x);
+  for (const double x : numbers) list.push_back({x});
   return {std::move(list)};
 }
 
@@ -49,8 +49,8 @@ template <class Values>
 Json json_list(const Values& values) {
   Json::List list;
   for (const auto& value : values)
-    if constexpr (std::is_convertible_v<decltype(value), double>) list.emplace_back(double(value));
-    else list.emplace_back(json_of(value));
+    if constexpr (std::is_convertible_v<decltype(value), double>) list.push_back({double(value)});
+    else list.push_back(json_of(value));
   return {std::move(list)};
 }
 
@@ -87,7 +87,7 @@ Json json_of(const Solid& solid) {
 
 Json json_of(const Mesh& mesh) {
   Json::List triangles;
-  for (const auto& t : mesh.triangles) triangles.emplace_back(json_of({t[0] + 1.0, t[1] + 1.0, t[2] + 1.0}));
+  for (const auto& t : mesh.triangles) triangles.push_back(json_of({t[0] + 1.0, t[1] + 1.0, t[2] + 1.0}));
   return Members().add("vertices", json_list(mesh.vertices)).add("triangles", Json{std::move(triangles)});
 }
 
@@ -156,7 +156,7 @@ Json json_of(const FrameShape& shape) {
   for (std::size_t k = 0; k < shape.s.size(); ++k) {
     const Vec3& p = shape.frames[k].at;
     const Quat& q = shape.frames[k].rotation;
-    stations.emplace_back(json_of({shape.s[k], p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z()}));
+    stations.push_back(json_of({shape.s[k], p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z()}));
   }
   return Members().add("kind", "frames").add("stations", Json{std::move(stations)});
 }
@@ -191,7 +191,7 @@ Json json_of(const PlacedRod& placed, const Scene& scene) {
   const Rod& rod = placed.rod();
   Json::List parts, holds, loads;
   for (const RodPart& part : rod.parts)
-    parts.emplace_back(Members().add("upto", part.upto).add("section", json_of(part.section)));
+    parts.push_back(Members().add("upto", part.upto).add("section", json_of(part.section)));
   for (const Hold& hold : placed.holds()) holds.emplace_back(json_of(hold, placed.attachment_at(hold.at), scene));
   for (const PointLoad& load : placed.loads())
     loads.emplace_back(Members().add("at", load.at).add("force", json_of(load.force)).add("moment", json_of(load.moment)));
