@@ -145,7 +145,7 @@ NewtonOutcome NetworkSolver::iterate(RodState& state, bool warm, const RunContex
   NewtonOptions options;
   options.tolerance = options_.tolerance;
   // Of many rods one after the other may snap through on the way.
-  options.max_iterations = std::min(network_->rods() > 1 ? 120 : 40, options_.max_iterations);
+  options.max_iterations = std::min(network_->rods() > 1 ? 500 : 40, options_.max_iterations);
   options.stable_only = options_.stable_only;
   options.warm = warm;
   return newton_.run(state, options, context);
