@@ -33,6 +33,7 @@ class KblReader {
   HarnessProtection protection(Node area);
   double share(Node owner, const char* name, double otherwise) const;
   double mass(Node part);
+  int number_of(const std::unordered_map<std::string_view, int>& read, Node from, std::string_view id, const char* tag) const;
   int node_number(Node segment, const char* name) const;
   void read_wire(Node occurrence);
   void read_cores(Node part, HarnessWire& wire) const;
@@ -154,8 +155,16 @@ HarnessProtection KblReader::protection(Node area) {
   return made;
 }
 
+/// Of what was read under this id; there are elements of the right name in wrong places too.
+int KblReader::number_of(const std::unordered_map<std::string_view, int>& read, Node from, std::string_view id, const char* tag) const {
+  const auto found = read.find(file_.referenced(from, id, tag).attribute("id").value());
+  if (found == read.end())
+    file_.fail(from, "<" + std::string(from.name()) + "> refers to '" + std::string(id) + "', a " + tag + " that is not where the file's own are");
+  return found->second;
+}
+
 int KblReader::node_number(Node segment, const char* name) const {
-  return nodes_.at(file_.referenced(segment, XmlFile::text(segment, name), "Node").attribute("id").value());
+  return number_of(nodes_, segment, XmlFile::text(segment, name), "Node");
 }
 
 void KblReader::read_segment(Node node) {
@@ -220,7 +229,7 @@ void KblReader::read_routing(Node routing) {
   const auto wire = wires_.find(XmlFile::text(connection, "Wire"));
   if (wire == wires_.end()) file_.fail(connection, "<Connection>: there is no wire '" + std::string(XmlFile::text(connection, "Wire")) + "'");
   for (const std::string_view id : ids) {
-    const int segment = segments_.at(file_.referenced(routing, id, "Segment").attribute("id").value());
+    const int segment = number_of(segments_, routing, id, "Segment");
     std::vector<int>& through = found_.segments[segment].wires;
     if (!through.empty() && through.back() == wire->second) continue;
     if (std::find(through.begin(), through.end(), wire->second) != through.end()) continue;  // another core of the cable

@@ -86,7 +86,11 @@ void VecReader::check_root() {
 }
 
 int VecReader::node_number(Node segment, const char* name) const {
-  return nodes_.at(file_.referenced(segment, XmlFile::text(segment, name), "TopologyNode").attribute("id").value());
+  const std::string_view id = XmlFile::text(segment, name);
+  const auto found = nodes_.find(file_.referenced(segment, id, "TopologyNode").attribute("id").value());
+  // Elements of the right name can stand in wrong places.
+  if (found == nodes_.end()) file_.fail(segment, "it refers to '" + std::string(id) + "', a TopologyNode that is not in the topology");
+  return found->second;
 }
 
 /// A designed length is the centre line's, an adapted one what is made.

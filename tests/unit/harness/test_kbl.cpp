@@ -113,6 +113,7 @@ TEST_CASE("what is no harness is refused with the line") {
   refuses("<Segments>trunk to_lamp", "<Segments>trunk nowhere", "refers to 'nowhere', which is not in the file");
   refuses("<Connection id=\"k_1\"><Wire>w_1", "<Connection id=\"k_1\"><Wire>w_9", "there is no wire 'w_9'");
   refuses("<Fixing>fixing_1", "<Fixing>fixing_9", "there is no fixing 'fixing_9'");
+  refuses("<Node id=\"plug\">", "<Elsewhere><Node id=\"plug\"/></Elsewhere><Node id=\"plug_2\">", "a Node that is not where the file's own are");
   CHECK_THROWS_WITH(read_harness("bay.step"), Catch::Contains("'bay.step': '.step' is no harness file; expected .kbl"));
   CHECK_THROWS_WITH(read_harness("builtin:t_harnes"), Catch::Contains("did you mean 't_harness'?"));
 }
