@@ -84,7 +84,7 @@ struct HarnessFile {
 /// Readers of the formats. `content`: the whole file; `path` stands in messages and in the result. Throw UsageError
 /// "scene.import: path: ..." for what is not such a file or refers to what is not there.
 HarnessFile parse_kbl(std::string_view content, const std::string& path);
-/// VEC 1.2 and 2.x: topology, places and centre curves; wires, fixings and protections are not read, and counted in `skipped`.
+/// VEC 1.2 and 2.x: topology, places, centre curves, wires, fixings and connectors; protections are not read, and counted in `skipped`.
 HarnessFile parse_vec(std::string_view content, const std::string& path);
 
 }  // namespace tendril

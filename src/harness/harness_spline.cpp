@@ -58,6 +58,7 @@ SplineSpan::SplineSpan(const HarnessCurve& curve, const std::vector<double>& kno
   for (int k = 0; k <= degree; ++k) {
     for (int j = 0; j <= k; ++j) powers_[k] += ((k - j) % 2 ? -1 : 1) * binomial(k, j) * bezier[j];
     powers_[k] *= binomial(degree, k);
+    if (k > 0) rates_.push_back(k * powers_[k]);
   }
   for (int k = 0; k < parts; ++k) reached_[k + 1] = reached_[k] + length_between(double(k) / parts, double(k + 1) / parts);
 }
@@ -78,11 +79,19 @@ SplineSpan::Values SplineSpan::values(double t) const {
   return found;
 }
 
+/// Lengths need nothing else, and most of an import is lengths.
+double SplineSpan::speed(double t) const {
+  if (rational_) return values(t).first.norm();
+  Coefficient rate = Coefficient::Zero();
+  for (auto c = rates_.rbegin(); c != rates_.rend(); ++c) rate = rate * t + *c;
+  return rate.head<3>().norm();
+}
+
 double SplineSpan::length_between(double t0, double t1) const {
   const double middle = 0.5 * (t0 + t1), half = 0.5 * (t1 - t0);
   double sum = 0;
   for (std::size_t k = 0; k < gauss_at.size(); ++k)
-    sum += gauss_weight[k] * (values(middle - half * gauss_at[k]).first.norm() + values(middle + half * gauss_at[k]).first.norm());
+    sum += gauss_weight[k] * (speed(middle - half * gauss_at[k]) + speed(middle + half * gauss_at[k]));
   return sum * half;
 }
 
@@ -99,10 +108,9 @@ double SplineSpan::parameter(double arc_length) const {
   if (extent <= 0) return begin;
   double t = begin + (end - begin) * std::clamp((arc_length - reached_[part]) / extent, 0.0, 1.0);
   for (int step = 0; step < 20; ++step) {
-    const double speed = values(t).first.norm();
-    const double off = reached_[part] + length_between(begin, t) - arc_length;
-    if (speed <= 0 || std::abs(off) < 1e-14 * length()) break;
-    t = std::clamp(t - off / speed, begin, end);
+    const double rate = speed(t), off = reached_[part] + length_between(begin, t) - arc_length;
+    if (rate <= 0 || std::abs(off) < 1e-14 * length()) break;
+    t = std::clamp(t - off / rate, begin, end);
   }
   return t;
 }

@@ -33,11 +33,13 @@ class SplineSpan {
 
  private:
   double length_between(double t0, double t1) const;
+  double speed(double t) const;  ///< m per t
 
   static constexpr int parts = 8;
   using Coefficient = Eigen::Vector4d;  ///< x, y, z times the weight, and the weight
 
   std::vector<Coefficient> powers_;     ///< of t, rising
+  std::vector<Coefficient> rates_;      ///< the same of the derivative
   bool rational_ = false;
   std::array<double, parts + 1> reached_{};  ///< arc length at t = k / parts
 };

@@ -1,16 +1,16 @@
 // VEC 1.2 and 2.x: the Vehicle Electric Container (VDA 4968, prostep ivip). Its topology, and the building blocks that place its
-// nodes and draw its segments as NURBS; wires, their routing and what is placed on segments are counted, not read.
+// nodes and draw its segments as NURBS; wires by read_vec_wires.h, fixings and connectors by read_vec_placements.h; protections are counted, not read.
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
 #include <unordered_map>
 
 #include <Eigen/LU>
 
 #include "harness/harness_file.h"
-#include "harness/vec_units.h"
-#include "harness/xml_file.h"
+#include "harness/read_vec_placements.h"
+#include "harness/read_vec_wires.h"
+#include "harness/vec_specifications.h"
 
 namespace tendril {
 namespace {
@@ -46,25 +46,8 @@ class VecReader {
   void read_knots(Node node, HarnessCurve& made) const;
   Vec3 point(Node from, std::string_view id, double unit) const;
   void keep_located();
-  void count_skipped();
+  void count_drawings();
 
-  /// All specifications of a type, in every document.
-  template <class Take>
-  void each_specification(const char* type, Take take) {
-    for (Node document : file_.root().children("DocumentVersion"))
-      for (Node specification : document.children("Specification"))
-        if (type_of(specification) == type) take(specification);
-  }
-  /// The type that xsi:type names, without its prefix.
-  static std::string_view type_of(Node node) {
-    for (pugi::xml_attribute attribute : node.attributes()) {
-      const std::string_view name = attribute.name();
-      if (name != "type" && !name.ends_with(":type")) continue;
-      const std::string_view type = attribute.value();
-      return type.substr(type.find(':') == type.npos ? 0 : type.find(':') + 1);
-    }
-    return {};
-  }
   void skip(const std::string& what) { found_.skipped.push_back(what); }
 
   XmlFile file_;
@@ -102,11 +85,11 @@ HarnessSegment VecReader::topology_segment(Node node) const {
   made.finish = node_number(node, "EndNode");
   made.form = XmlFile::text(node, "Form");
   for (Node length : node.children("LengthInformation")) {
-    const double value = units_.value(length.child("Length"), 1);
+    const double value = units_.value(length.child("Length"), vec_length);
     const bool adapted = XmlFile::text(length, "Classification") == "Adapted";
     (adapted ? made.physical_length : made.virtual_length) = value;
   }
-  for (Node area : node.children("CrossSectionAreaInformation")) made.area = std::max(made.area, units_.value(area.child("Area"), 2));
+  for (Node area : node.children("CrossSectionAreaInformation")) made.area = std::max(made.area, units_.value(area.child("Area"), vec_area));
   return made;
 }
 
@@ -149,13 +132,13 @@ Positioning VecReader::positioning(Node node) const {
   const std::string_view origin = XmlFile::text(transformation, "Origin");
   if (!origin.empty()) {
     const Node block = file_.by_id(XmlFile::text(node, "Referenced3DBuildingBlock"));
-    made.by = point(transformation, origin, units_.factor(block, XmlFile::text(block, "BaseUnit"), 1));
+    made.by = point(transformation, origin, units_.factor(block, XmlFile::text(block, "BaseUnit"), vec_length));
   }
   return made;
 }
 
 void VecReader::read_positionings() {
-  each_specification("HarnessGeometrySpecification3D", [&](Node specification) {
+  each_specification(file_, "HarnessGeometrySpecification3D", [&](Node specification) {
     for (Node node : specification.children("BuildingBlockPositionings")) {
       const std::string_view block = XmlFile::text(node, "Referenced3DBuildingBlock");
       const Node target = file_.by_id(block);
@@ -232,8 +215,8 @@ void VecReader::draw_segment(Node node, double unit, const Positioning& where) {
   segment.start_direction = direction(node, "StartVector", where);
   segment.finish_direction = direction(node, "EndVector", where);
   for (Node child : node.children("Curve")) {
-    if (type_of(child) != "NURBSCurve") {
-      skip("line " + std::to_string(file_.line(child)) + ": a curve of type '" + std::string(type_of(child)) + "': the segment counts as straight");
+    if (vec_type(child) != "NURBSCurve") {
+      skip("line " + std::to_string(file_.line(child)) + ": a curve of type '" + std::string(vec_type(child)) + "': the segment counts as straight");
       segment.curves.clear();
       break;
     }
@@ -243,7 +226,7 @@ void VecReader::draw_segment(Node node, double unit, const Positioning& where) {
 }
 
 void VecReader::read_block(Node specification) {
-  const double unit = units_.factor(specification, XmlFile::text(specification, "BaseUnit"), 1);
+  const double unit = units_.factor(specification, XmlFile::text(specification, "BaseUnit"), vec_length);
   const auto placed = positionings_.find(specification.attribute("id").value());
   const Positioning where = placed == positionings_.end() ? Positioning() : placed->second;
   for (Node node : specification.children("GeometryNode")) place_node(node, unit, where);
@@ -280,17 +263,12 @@ void VecReader::keep_located() {
   found_.segments = std::move(segments);
 }
 
-void VecReader::count_skipped() {
-  const auto count = [&](const char* specification, const char* element, const std::string& what) {
-    int number = 0;
-    each_specification(specification, [&](Node node) {
-      for (Node child : node.children(element)) number += !child.empty();
-    });
-    if (number > 0) skip(std::to_string(number) + " " + what);
-  };
-  count("RoutingSpecification", "Routing", "routings of wires are not read: bundles have the sizes that the file states");
-  count("PlacementSpecification", "Placement", "placements of fixings, protections and connectors are not read");
-  count("BuildingBlockSpecification2D", "GeometrySegment", "segments of 2D drawings are not read");
+void VecReader::count_drawings() {
+  int drawn = 0;
+  each_specification(file_, "BuildingBlockSpecification2D", [&](Node specification) {
+    for (Node child : specification.children("GeometrySegment")) drawn += !child.empty();
+  });
+  if (drawn > 0) skip(std::to_string(drawn) + " segments of 2D drawings are not read");
 }
 
 HarnessFile VecReader::read() {
@@ -298,17 +276,19 @@ HarnessFile VecReader::read() {
   const Node root = file_.root();
   for (Node document : root.children("DocumentVersion"))
     if (found_.name.empty()) found_.name = XmlFile::text(document, "DocumentNumber");
-  each_specification("TopologySpecification", [&](Node specification) { read_topology(specification); });
+  each_specification(file_, "TopologySpecification", [&](Node specification) { read_topology(specification); });
   located_.assign(found_.nodes.size(), false);
   drawn_.assign(found_.segments.size(), false);
   read_positionings();
-  each_specification("BuildingBlockSpecification3D", [&](Node specification) { read_block(specification); });
+  each_specification(file_, "BuildingBlockSpecification3D", [&](Node specification) { read_block(specification); });
   keep_located();
   if (found_.nodes.empty() || found_.segments.empty())
     file_.fail(root, "the file has no 3D geometry: " + std::to_string(nodes_.size()) + " nodes and " + std::to_string(segments_.size()) +
                          " segments in its topology, " + std::to_string(found_.nodes.size()) + " and " +
                          std::to_string(found_.segments.size()) + " of them with a place");
-  count_skipped();
+  read_vec_wires(file_, units_, found_);
+  read_vec_placements(file_, units_, found_);
+  count_drawings();
   return std::move(found_);
 }
 

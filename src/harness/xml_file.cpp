@@ -41,13 +41,12 @@ XmlFile::Node XmlFile::by_id(std::string_view id) const {
 }
 
 XmlFile::Node XmlFile::referenced(Node from, std::string_view id, const char* tag) const {
+  const Node found = by_id(id);
+  if (found && local_name(found) == tag) return found;
   const std::string owner = "<" + std::string(from.name()) + " id=\"" + from.attribute("id").value() + "\">";
   if (id.empty()) fail(from, owner + " names no " + tag);
-  const Node found = by_id(id);
   if (!found) fail(from, owner + " refers to '" + std::string(id) + "', which is not in the file");
-  if (local_name(found) != tag)
-    fail(from, owner + " refers to '" + std::string(id) + "', which is a " + std::string(local_name(found)) + ", expected a " + tag);
-  return found;
+  fail(from, owner + " refers to '" + std::string(id) + "', which is a " + std::string(local_name(found)) + ", expected a " + tag);
 }
 
 std::string_view XmlFile::trimmed(std::string_view text) {

@@ -1,4 +1,4 @@
-// VEC files: what is read has finite places and curves that can be measured.
+// VEC files: what is read has finite places and curves that can be measured, wires and fixings of sizes that make sense.
 #include <cmath>
 
 #include "fuzz_target.h"
@@ -16,6 +16,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     fuzz::expect(segment.start >= 0 && segment.start < nodes && segment.finish >= 0 && segment.finish < nodes, "segments join nodes of the file");
     const double length = CentreLine(file, segment).length();
     fuzz::expect(std::isfinite(length) && length >= 0, "centre lines have a length");
+    for (const HarnessFixing& fixing : segment.fixings) fuzz::expect(fixing.location >= 0 && fixing.location <= 1, "fixings lie on their segment");
+    for (const int wire : segment.wires) fuzz::expect(wire >= 0 && wire < static_cast<int>(file.wires.size()), "segments hold wires of the file");
   }
+  for (const HarnessWire& wire : file.wires)
+    for (const double size : {wire.outer, wire.conductor_area, wire.mass, wire.min_bend_radius, wire.stated_length})
+      fuzz::expect(std::isfinite(size) && size >= 0, "wires have sizes");
   return 0;
 }
