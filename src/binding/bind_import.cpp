@@ -71,7 +71,7 @@ HarnessImportOptions import_options(const Options& o) {
 Pushed import(lua_State* L, const std::string& path, const Options& o) {
   const HarnessImportOptions options = import_options(o);
   auto scene = std::make_shared<Scene>(options.gravity);
-  const ImportedHandle harness{std::make_shared<const ImportedHarness>(import_harness(read_harness(path), options, *scene))};
+  const ImportedHandle harness{std::make_shared<const ImportedHarness>(import_harness(read_harness(path), options, *scene, run_context(L)))};
   Value<std::shared_ptr<Scene>>::push(L, scene);
   Value<ImportedHandle>::push(L, harness);
   return {2};

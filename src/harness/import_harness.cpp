@@ -26,7 +26,8 @@ constexpr double most_turn = 0.35;            // rad an element
 
 class HarnessImport {
  public:
-  HarnessImport(HarnessFile file, const HarnessImportOptions& options, Scene& scene) : options_(options), scene_(scene) {
+  HarnessImport(HarnessFile file, const HarnessImportOptions& options, Scene& scene, const RunContext& context)
+      : options_(options), scene_(scene), context_(context) {
     found_.file = std::move(file);
   }
   ImportedHarness run();
@@ -37,19 +38,20 @@ class HarnessImport {
   void add_segment(const HarnessSegment& segment, ImportedSegment& made);
   Rod rod_of(const HarnessSegment& segment, const CentreLine& line, const Bundle& bundle, ImportedSegment& made);
   std::vector<double> vertices(const HarnessSegment& segment, const CentreLine& line) const;
-  void add_clips(const HarnessSegment& segment, const LineFrames& frames, ImportedSegment& made);
+  void add_clips(const HarnessSegment& segment, const LineFrames& frames, PlacedRod& rod, ImportedSegment& made);
   void add_nodes();
   void note(const std::string& text, const std::string& where);
   void tell_notes();
 
   struct End {
-    int segment;
+    PlacedRod* rod;
     bool finish;
     Frame frame;
   };
 
   HarnessImportOptions options_;
   Scene& scene_;
+  const RunContext& context_;
   ImportedHarness found_;
   std::vector<std::vector<End>> ends_;                     ///< by node
   std::map<std::string, std::vector<std::string>> noted_;  ///< what was assumed, and where
@@ -78,6 +80,7 @@ void HarnessImport::add_segments() {
   ends_.resize(found_.file.nodes.size());
   found_.segments.resize(found_.file.segments.size());
   for (std::size_t k = 0; k < found_.segments.size(); ++k) {
+    if (context_.stop()) throw UsageError("scene.import: " + found_.file.path + ": interrupted after " + std::to_string(k) + " segments");
     add_segment(found_.file.segments[k], found_.segments[k]);
     if (!found_.segments[k].left_out.empty()) note("left out: " + found_.segments[k].left_out, found_.file.segments[k].id);
   }
@@ -114,11 +117,10 @@ void HarnessImport::add_segment(const HarnessSegment& segment, ImportedSegment& 
     rod.segments = static_cast<int>(drawn.s.size()) - 1;
   }
   made.rod = segment.id;
-  const int number = static_cast<int>(&made - found_.segments.data());
-  scene_.add(PlacedRod(segment.id, std::move(rod), {}, {}));
-  ends_[segment.start].push_back({number, false, frames.start()});
-  ends_[segment.finish].push_back({number, true, frames.finish()});
-  add_clips(segment, frames, made);
+  PlacedRod& placed = scene_.add(PlacedRod(segment.id, std::move(rod), {}, {}));
+  ends_[segment.start].push_back({&placed, false, frames.start()});
+  ends_[segment.finish].push_back({&placed, true, frames.finish()});
+  add_clips(segment, frames, placed, made);
 }
 
 Rod HarnessImport::rod_of(const HarnessSegment& segment, const CentreLine& line, const Bundle& bundle, ImportedSegment& made) {
@@ -157,9 +159,8 @@ std::vector<double> HarnessImport::vertices(const HarnessSegment& segment, const
   return s;
 }
 
-void HarnessImport::add_clips(const HarnessSegment& segment, const LineFrames& frames, ImportedSegment& made) {
+void HarnessImport::add_clips(const HarnessSegment& segment, const LineFrames& frames, PlacedRod& rod, ImportedSegment& made) {
   if (options_.clips == HarnessClip::none) return;
-  PlacedRod& rod = scene_.rod(made.rod);
   for (const HarnessFixing& fixing : segment.fixings) {
     Hold hold;
     hold.at = fixing.location * made.length;
@@ -183,17 +184,16 @@ void HarnessImport::add_nodes() {
     const HarnessNode& node = found_.file.nodes[k];
     std::vector<BranchPlace> places;
     for (const End& end : ends_[k]) {
-      PlacedRod& rod = scene_.rod(found_.segments[end.segment].rod);
-      const double at = end.finish ? rod.rod().length : 0;
+      const double at = end.finish ? end.rod->rod().length : 0;
       if (ends_[k].size() == 1) {
         Hold hold;
         hold.at = at;
         hold.frame = end.frame;
-        rod.hold(hold);
+        end.rod->hold(hold);
         ++found_.held_ends;
         if (node.components.empty()) note("an end without a connector is held where it is drawn", node.id);
       } else {
-        places.push_back({&rod, at, Frame{node.at, Quat::Identity()}.inverse() * end.frame});
+        places.push_back({end.rod, at, Frame{node.at, Quat::Identity()}.inverse() * end.frame});
       }
     }
     if (places.empty()) continue;
@@ -244,8 +244,8 @@ std::vector<double> ImportedHarness::wire_lengths() const {
   return lengths;
 }
 
-ImportedHarness import_harness(HarnessFile file, const HarnessImportOptions& options, Scene& scene) {
-  return HarnessImport(std::move(file), options, scene).run();
+ImportedHarness import_harness(HarnessFile file, const HarnessImportOptions& options, Scene& scene, const RunContext& context) {
+  return HarnessImport(std::move(file), options, scene, context).run();
 }
 
 HarnessFile read_harness(const std::string& name) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/run_context.h"
 #include "harness/centre_line.h"
 #include "harness/harness_file.h"
 #include "rod/bundle.h"
@@ -55,8 +56,8 @@ struct ImportedHarness {
 
 /// Adds the harness to `scene`. Rods are called as the segments' ids, branch points as the nodes'. Ends of the harness are held
 /// where they are drawn. Throws UsageError for names that the scene has already, options that make no sense, and a file of which
-/// no segment is sound.
-ImportedHarness import_harness(HarnessFile file, const HarnessImportOptions& options, Scene& scene);
+/// no segment is sound, and when `context` ends it.
+ImportedHarness import_harness(HarnessFile file, const HarnessImportOptions& options, Scene& scene, const RunContext& context = {});
 
 /// Reads a file in the format of its suffix (.kbl), or "builtin:t_harness", which comes with the program. Throws UsageError as
 /// the readers do, and for other suffixes.

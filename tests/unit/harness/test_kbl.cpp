@@ -50,6 +50,14 @@ std::string shared_file() {
 
 }  // namespace
 
+TEST_CASE("an import ends when it is told to") {
+  const std::atomic<bool> cancel{true};
+  RunContext context;
+  context.cancel = &cancel;
+  Scene scene;
+  CHECK_THROWS_WITH(import_harness(read_harness(sample), {}, scene, context), "scene.import: " + std::string(sample) + ": interrupted after 0 segments");
+}
+
 TEST_CASE("a small harness is read as it stands in the file") {
   const HarnessFile file = read_harness(sample);
   CHECK(file.format == "KBL 2.4");
