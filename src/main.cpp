@@ -6,7 +6,15 @@
 
 #include <cstring>
 
+#include "base/instruction_sets.h"
+
 namespace {
+
+#if defined(__clang__)  // knows no levels by name, and this build's is rarely another one
+bool has_what_it_needs() { return std::strcmp(TENDRIL_NEEDS, "x86-64-v3") != 0 || tendril::runs_x86_64_v3(); }
+#else
+bool has_what_it_needs() { return __builtin_cpu_supports(TENDRIL_NEEDS); }
+#endif
 
 void say(const char* text) {
   [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, text, std::strlen(text));
@@ -16,7 +24,7 @@ void say(const char* text) {
 /// included, and calls nothing but the system's library.
 __attribute__((constructor(101))) void check_processor() {
   __builtin_cpu_init();
-  if (__builtin_cpu_supports(TENDRIL_NEEDS)) return;
+  if (has_what_it_needs()) return;
   say("tendril: this processor lacks instructions that this build needs (" TENDRIL_NEEDS
       ": AVX2, FMA, BMI2, F16C).\nBuild it for older ones with cmake -DTENDRIL_ARCH=x86-64-v2 (or x86-64).\n");
   ::_exit(2);

@@ -1,6 +1,7 @@
 #include "base/parallel.h"
 
 #include <algorithm>
+#include <atomic>
 #include <exception>
 #include <mutex>
 #include <thread>
@@ -12,20 +13,26 @@ namespace {
 
 using RunWorkers = void(int workers, void (*work)(void* data, int worker), void* data);
 
+/// The library of threads orders what came before the workers, they, and what comes after. The two flags say so once more, where the
+/// thread sanitizer, which does not see into that library, can see it.
 struct Job {
   const std::function<void(int)>& work;
-  std::mutex guard;
-  std::exception_ptr failure;
+  std::mutex guard{};
+  std::exception_ptr failure{};
+  std::atomic<bool> handed_over{false};
+  std::atomic<int> finished{0};
 };
 
 void run_one(void* data, int worker) {
   Job& job = *static_cast<Job*>(data);
+  job.handed_over.load(std::memory_order_acquire);
   try {
     job.work(worker);
   } catch (...) {
     const std::lock_guard lock(job.guard);
     if (!job.failure) job.failure = std::current_exception();
   }
+  job.finished.fetch_add(1, std::memory_order_release);
 }
 
 }  // namespace
@@ -35,7 +42,8 @@ int thread_count(int requested) {
 }
 
 void run_workers(int workers, const std::function<void(int worker)>& work) {
-  Job job{work, {}, nullptr};
+  Job job{work};
+  job.handed_over.store(true, std::memory_order_release);
   RunWorkers* const run = workers > 1 ? [] {
     static auto* const loaded = reinterpret_cast<RunWorkers*>(load_module("tendril_threads.so", "tendril_run_workers").address);
     return loaded;
@@ -44,6 +52,7 @@ void run_workers(int workers, const std::function<void(int worker)>& work) {
     run(workers, run_one, &job);
   else
     for (int i = 0; i < workers; ++i) run_one(&job, i);
+  job.finished.load(std::memory_order_acquire);
   if (job.failure) std::rethrow_exception(job.failure);
 }
 

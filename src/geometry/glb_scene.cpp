@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/json_text.h"
+#include "geometry/glb_file.h"
 #include "geometry/mesh_export.h"
 
 namespace tendril {
@@ -90,18 +91,7 @@ class GlbWriter {
     if (!channels_.items.empty())
       json += ",\"animations\":[{\"name\":\"motion\"" + channels_.text("channels") + samplers_.text("samplers") + "}]";
     json += accessors_.text("accessors") + views_.text("bufferViews") + ",\"buffers\":[{\"byteLength\":" + std::to_string(data_.size()) + "}]}";
-    json.resize((json.size() + 3) / 4 * 4, ' ');
-    const std::size_t size = 12 + 8 + json.size() + 8 + data_.size();
-    if (size > 0xffffffffu) throw UsageError("glb: the scene is too large for a GLB file, which holds at most 4 GB; save it as .ply");
-    std::string out = "glTF";
-    out.reserve(size);
-    append(out, std::uint32_t{2});
-    append(out, static_cast<std::uint32_t>(size));
-    append(out, static_cast<std::uint32_t>(json.size()));
-    out += "JSON" + json;
-    append(out, static_cast<std::uint32_t>(data_.size()));
-    out.append("BIN\0", 4);
-    return out + data_;
+    return glb_file(std::move(json), data_, "glb: the scene");
   }
 
  private:

@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/write_file.h"
+#include "geometry/glb_file.h"
 
 namespace tendril {
 
@@ -124,24 +125,13 @@ std::vector<Vec3> smooth_normals(const Mesh& mesh) {
 }
 
 std::string glb_of(const Mesh& mesh) {
-  std::string json = glb_header(mesh);
-  json.resize((json.size() + 3) / 4 * 4, ' ');
-  const std::size_t data = 24 * mesh.vertices.size() + 12 * mesh.triangles.size(), size = 12 + 8 + json.size() + 8 + data;
-  if (size > 0xffffffffu)
-    throw UsageError("mesh '" + mesh.name + "': too large for a GLB file, which holds at most 4 GB; save it as .ply");
-  std::string out = "glTF";
-  out.reserve(size);
-  append(out, std::uint32_t{2});
-  append(out, static_cast<std::uint32_t>(size));
-  append(out, static_cast<std::uint32_t>(json.size()));
-  out += "JSON" + json;
-  append(out, static_cast<std::uint32_t>(data));
-  out.append("BIN\0", 4);
-  for (const Vec3& v : mesh.vertices) append_y_up(out, v);
-  for (const Vec3& normal : smooth_normals(mesh)) append_y_up(out, normal);
+  std::string data;
+  data.reserve(24 * mesh.vertices.size() + 12 * mesh.triangles.size());
+  for (const Vec3& v : mesh.vertices) append_y_up(data, v);
+  for (const Vec3& normal : smooth_normals(mesh)) append_y_up(data, normal);
   for (const auto& t : mesh.triangles)
-    for (const int corner : t) append(out, static_cast<std::uint32_t>(corner));
-  return out;
+    for (const int corner : t) append(data, static_cast<std::uint32_t>(corner));
+  return glb_file(glb_header(mesh), data, "mesh '" + mesh.name + "'");
 }
 
 void save_mesh(const std::string& path, const Mesh& mesh, double unit) {

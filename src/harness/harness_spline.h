@@ -9,7 +9,8 @@
 namespace tendril {
 
 /// How a B-spline without knots is meant. Both have equal steps between its inner knots; clamped repeats the outer ones, so that
-/// the curve begins and ends at its outer control points, unclamped goes on in equal steps, and it ends between them.
+/// the curve begins and ends at its outer control points, unclamped goes on in equal steps, and it ends between them. KBL allows both
+/// and does not say which (prostep ivip, KBL implementation guideline "3D B-Spline Representation").
 enum class KnotReading { clamped, unclamped };
 
 /// The curve's own knots, or those that the reading gives it: points + degree + 1 of them.

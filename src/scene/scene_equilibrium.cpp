@@ -162,8 +162,12 @@ void SceneEquilibrium::take(SystemEquilibrium solved, const std::vector<int>& ro
   for (std::size_t i = 0; i < rod_numbers.size(); ++i) {
     SolvedRod& rod = rods[rod_numbers[i]];
     rod.equilibrium = std::move(solved.rods[i]);
-    for (std::size_t h = 0; h < rod.problem.holds.size() && h < rod.equilibrium.reactions.size(); ++h)
-      if (rod.problem.holds[h].slide) rod.problem.holds[h].at = rod.equilibrium.reactions[h].s;
+    for (std::size_t h = 0; h < rod.problem.holds.size() && h < rod.equilibrium.reactions.size(); ++h) {
+      Hold& hold = rod.problem.holds[h];
+      if (!hold.slide) continue;
+      if (hold.cut_at < 0) hold.cut_at = hold.at;  // the segments stay as they were cut
+      hold.at = rod.equilibrium.reactions[h].s;
+    }
   }
   for (std::size_t i = 0; i < branch_numbers.size(); ++i) {
     branches[branch_numbers[i]].frame = solved.branches[i];

@@ -122,7 +122,7 @@ std::vector<double> SystemSensitivity::stationary_change(const Clip& clip, std::
 
 SystemSensitivity::Answer SystemSensitivity::gradient(const Measure& measure, const std::vector<Parameter>& parameters) const {
   Answer answer{middle_->sensitivity->measure(measure).value, middle_->sensitivity->gradient(measure, parameters)};
-  if (clips_.empty()) return answer;
+  if (clips_.empty() || parameters.empty()) return answer;
   const int m = static_cast<int>(clips_.size());
   std::vector<Parameter> asked = parameters;  // and the clips' places
   for (const Clip& clip : clips_) asked.push_back(clip.place);

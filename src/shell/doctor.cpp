@@ -14,6 +14,7 @@
 
 #include "base/error.h"
 #include "base/installation.h"
+#include "base/instruction_sets.h"
 #include "base/load_module.h"
 #include "shell/history.h"
 #include "shell/init_file.h"
@@ -81,7 +82,7 @@ void look_at_machine(Examination& e) {
   const auto feature = [&](const char* name, bool has) { features += (features.empty() ? "" : ", ") + std::string(has ? "" : "no ") + name; };
   feature("AVX2", __builtin_cpu_supports("avx2"));
   feature("FMA", __builtin_cpu_supports("fma"));
-  feature("AVX-512", __builtin_cpu_supports("x86-64-v4"));
+  feature("AVX-512", runs_x86_64_v4());
   e.good("instructions", features);
 #endif
   const BatchKernel& kernel = best_batch_kernel();

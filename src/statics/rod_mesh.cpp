@@ -15,7 +15,9 @@ std::vector<double> breaks_of(const RodProblem& problem, const std::vector<doubl
   for (const PoseSpring& spring : problem.springs) breaks.push_back(spring.at);
   for (const RodPart& part : rod.parts) breaks.push_back(part.upto);
   breaks.insert(breaks.end(), joined.begin(), joined.end());
-  breaks.insert(breaks.end(), rod.shape_breaks.begin(), rod.shape_breaks.end());
+  // Vertices that a sliding section met, or passed, would change how many there are: what lies between its stops moves with it.
+  const bool slides = std::any_of(problem.holds.begin(), problem.holds.end(), [](const Hold& hold) { return hold.slide; });
+  if (!slides) breaks.insert(breaks.end(), rod.shape_breaks.begin(), rod.shape_breaks.end());
   for (double& place : breaks) place = std::clamp(place, 0.0, rod.length);
   std::sort(breaks.begin(), breaks.end());
   // Places closer than this are one place: a shorter segment would only spoil the conditioning.

@@ -21,6 +21,7 @@ constexpr int most_steps = 60;
 struct Clip {
   int rod, hold;
   double low, high;
+  bool alone = true;  ///< nothing else that needs a vertex lies where it is
 };
 
 std::vector<Clip> clips_of(const SystemProblem& problem) {
@@ -39,6 +40,7 @@ std::vector<Clip> clips_of(const SystemProblem& problem) {
       if (!rod.holds[h].slide) continue;
       const double at = rod.holds[h].at, same = 1e-9 * rod.rod.length;
       Clip clip{k, h, 0, rod.rod.length};
+      clip.alone = std::count_if(stops.begin(), stops.end(), [&](double stop) { return std::abs(stop - at) <= same; }) == 1;
       for (const double stop : stops) {
         if (stop < at - same) clip.low = stop;
         if (stop > at + same) {
@@ -195,6 +197,9 @@ SystemEquilibrium solve_sliding(const SystemProblem& given, const SolveOptions& 
   auto solver = std::make_unique<NetworkSolver>(problem, options);
   SystemEquilibrium best = solver->solve(context, from);
   int iterations = best.rods.front().iterations;
+  if (const auto met = std::find_if(clips.begin(), clips.end(), [](const Clip& clip) { return !clip.alone; }); met != clips.end() && best.ok())
+    set_status(best, Status::infeasible, "the clip at " + number_text(at(problem, *met)) + " m, through which the rod slips, lies where a load "
+                                         "acts, the section changes or rods are joined: put it a little beside");
   for (int step = 0; best.ok(); ++step) {
     const RodState state = solver->starting_state(&best);
     const Reduced reduced = reduce(*solver, state, problem, options, clips);

@@ -2,6 +2,8 @@
 // or a Lua error with words; a computation that takes long is cancelled.
 #include <atomic>
 #include <chrono>
+#include <mutex>
+#include <optional>
 #include <thread>
 
 #include "binding/lua_context.h"
@@ -24,23 +26,24 @@ class Impatience {
   Impatience() : watch_([this](std::stop_token stop) {
     while (!stop.stop_requested()) {
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
-      const auto since = since_.load();
-      if (since != Clock::time_point() && Clock::now() - since > patience) cancel = true;
+      const std::lock_guard lock(guard_);  // the call may end just now: the next one is not to pay for it
+      if (since_ && Clock::now() - *since_ > patience) cancel = true;
     }
   }) {}
-  void begin() {
-    cancel = false;
-    since_ = Clock::now();
-  }
-  void end() {
-    since_ = Clock::time_point();
-    cancel = false;
-  }
+  void begin() { set(Clock::now()); }
+  void end() { set({}); }
 
   std::atomic<bool> cancel{false};
 
  private:
-  std::atomic<Clock::time_point> since_{Clock::time_point()};
+  void set(std::optional<Clock::time_point> since) {
+    const std::lock_guard lock(guard_);
+    since_ = since;
+    cancel = false;
+  }
+
+  std::mutex guard_;
+  std::optional<Clock::time_point> since_;
   std::jthread watch_;
 };
 
@@ -85,7 +88,8 @@ class State {
   void push_samples() {
     lua_rawgeti(L, LUA_REGISTRYINDEX, make_samples_);
     const bool made = lua_pcall(L, 0, 1, 0) == LUA_OK;
-    fuzz::expect(made, made ? "" : std::string("the samples can be made: ") + lua_tostring(L, -1));
+    fuzz::expect(made, made ? "" : std::string("the samples can be made after ") + last + ", with " + std::to_string(context_.memory_used) +
+                                       " bytes in use: " + lua_tostring(L, -1));
   }
 
   /// The function itself, and for a method its object above it; false where no sample has it.
@@ -105,6 +109,7 @@ class State {
   lua_State* L = nullptr;
   Impatience impatience;
   std::vector<const lua::FunctionRecord*> functions;
+  std::string last = "nothing";  ///< what was called before
 
  private:
   lua::Context context_;
@@ -138,6 +143,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     state.impatience.end();
     lua::rearm(L);
     if (status != LUA_OK) expect_words(L);
+    state.last = function.name;
   }
   lua_settop(L, 0);
   lua_gc(L, LUA_GCCOLLECT);

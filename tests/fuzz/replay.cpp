@@ -24,7 +24,7 @@ using Bytes = std::vector<std::uint8_t>;
 
 constexpr int most_seconds = 20;                     // of CPU time, for one input
 constexpr rlim_t most_memory = 2ull * 1024 * 1024 * 1024;
-constexpr std::size_t longest = 4096;                // of a mutation
+constexpr std::size_t longest = 16384;               // of a mutation
 
 // What a signal handler can reach.
 const Bytes* current = nullptr;

@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "base/number_text.h"
 #include "method/dress_pack/direct_problem.h"
+#include "method/dress_pack/path_start.h"
 
 namespace tendril::dress_pack {
 namespace {
@@ -32,8 +33,6 @@ JointPath within_limits(const JointPath& path, const Robot& robot) {
     for (int i = 0; i < robot.size(); ++i) via[k][i] = std::clamp(via[k][i], robot.lower()[i], robot.upper()[i]);
   return JointPath(std::move(via));
 }
-
-bool stopped(Status status) { return status == Status::cancelled || status == Status::timeout; }
 
 /// Solves the program again and again, each time from equilibria that are followed to the last path and with the via points kept
 /// near it: the linear model of a step holds for rods that turn little, and what the equations know nothing of, whether an
@@ -128,24 +127,10 @@ DirectResult optimise_direct(const PackProblem& given, const JointPath& given_pa
   PackProblem pack = given;
   pack.bodies.clear();
   DirectResult out;
-  out.path = options.via > 0 ? given_path.resampled(options.via) : given_path;
-  const std::string beyond = beyond_robot(out.path, *pack.robot, options.seconds);
-  if (!beyond.empty()) {
-    out.status = Status::infeasible;
-    out.message = "the path cannot be improved from where it starts: " + beyond;
-    return out;
-  }
-  SimulationOptions simulation;
-  simulation.steps = options.steps;
-  out.before = simulate(pack, out.path, simulation, context);
+  if (!take_path(pack, given_path, options, context, out)) return out;
   const Clock::time_point search_begin = Clock::now();
   ReducedProblem start(pack, out.path, options.steps, options.demands, options.weights);
-  const PackFollower::Outcome way = start.start(context);
-  if (!way.ok()) {
-    out.status = stopped(way.status) ? way.status : Status::infeasible;
-    out.message = stopped(way.status) ? "interrupted before the path was followed once" : "the rods cannot follow the path: " + out.before.message;
-    return out;
-  }
+  if (!follow_once(start, context, out)) return out;
   out.objective_before = start.objective();
   out.status = Status::solved;
   out.message = "solved";
@@ -153,6 +138,8 @@ DirectResult optimise_direct(const PackProblem& given, const JointPath& given_pa
   out.objective = start.objective();
   out.path = start.path();
   out.search_seconds = since(search_begin);
+  SimulationOptions simulation;
+  simulation.steps = options.steps;
   out.after = simulate(pack, out.path, simulation, context);
   out.seconds = since(begin);
   return out;

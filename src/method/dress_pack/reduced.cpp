@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/number_text.h"
 #include "method/dress_pack/clearance_search.h"
+#include "method/dress_pack/path_start.h"
 #include "method/dress_pack/trust_search.h"
 
 namespace tendril::dress_pack {
@@ -150,25 +151,10 @@ ReducedResult optimise(const PackProblem& given, const JointPath& given_path, co
   PackProblem bare = given;
   bare.bodies.clear();
   ReducedResult out;
-  out.path = options.via > 0 ? given_path.resampled(options.via) : given_path;
-  const std::string beyond = beyond_robot(out.path, *given.robot, options.seconds);
-  if (!beyond.empty()) {
-    out.status = Status::infeasible;
-    out.message = "the path cannot be improved from where it starts: " + beyond;
-    return out;
-  }
-  SimulationOptions simulation;
-  simulation.steps = options.steps;
-  out.before = simulate(bare, out.path, simulation, context);
+  if (!take_path(bare, given_path, options, context, out)) return out;
   const Clock::time_point search_begin = Clock::now();
   ReducedProblem problem(given, out.path, options.steps, options.demands, options.weights);
-  const PackFollower::Outcome start = problem.start(context);
-  if (!start.ok()) {
-    const bool stopped = start.status == Status::cancelled || start.status == Status::timeout;
-    out.status = stopped ? start.status : Status::infeasible;
-    out.message = stopped ? "interrupted before the path was followed once" : "the rods cannot follow the path: " + out.before.message;
-    return out;
-  }
+  if (!follow_once(problem, context, out)) return out;
   out.objective = out.objective_before = problem.plain_objective();
   const LinearLimits limits = limits_of(*given.robot, out.path, options.seconds);
   if (clear) {
@@ -179,7 +165,11 @@ ReducedResult optimise(const PackProblem& given, const JointPath& given_path, co
     out.path = problem.path();
   }
   out.search_seconds = since(search_begin) - out.verification_seconds;
-  if (!clear) out.after = simulate(bare, out.path, simulation, context);
+  if (!clear) {
+    SimulationOptions simulation;
+    simulation.steps = options.steps;
+    out.after = simulate(bare, out.path, simulation, context);
+  }
   compare(problem, out);
   out.seconds = since(begin);
   return out;

@@ -6,11 +6,11 @@
 #include "harness/centre_line.h"
 #include "harness/import_harness.h"
 #include "unit/geometry/mesh_files.h"
-#include "unit/geometry/random_mesh.h"
 #include "unit/harness/vec_files.h"
 
 using namespace tendril;
 using Catch::Contains;
+using tendril::test::damaged;
 using tendril::test::Folder;
 using tendril::test::Random;
 using tendril::test::replaced;
@@ -137,12 +137,7 @@ TEST_CASE("VEC: damaged files are read or refused, never worse", "[vec]") {
   Random random(seed);
   int read = 0, refused = 0;
   for (int trial = 0; trial < 3000; ++trial) {
-    std::string text = sound;
-    for (int k = 1 + random.below(3); k > 0; --k) {
-      const auto at = static_cast<std::size_t>(random.below(static_cast<int>(text.size())));
-      const char* pieces[] = {"0", "-1", "1e300", "9", "N2", "P1", "", "<", "</", "nan", " ", "U_mm2"};
-      text.replace(at, static_cast<std::size_t>(random.below(4)), pieces[random.below(12)]);
-    }
+    const std::string text = damaged(sound, random, {"0", "-1", "1e300", "9", "N2", "P1", "", "<", "</", "nan", " ", "U_mm2"});
     CAPTURE(trial);
     try {
       const HarnessFile file = parse_vec(text, "t.vec");

@@ -4,6 +4,9 @@
 #include <catch2/catch.hpp>
 #include <sstream>
 #include <string>
+#include <vector>
+
+#include "unit/base/random_numbers.h"
 
 namespace tendril::test {
 
@@ -66,6 +69,15 @@ inline std::string replaced(std::string text, const std::string& what, const std
   const std::size_t at = text.find(what);
   REQUIRE(at != text.npos);
   return text.replace(at, what.size(), by);
+}
+
+/// A few places of it overwritten; `pieces` are what with.
+inline std::string damaged(std::string text, Random& random, const std::vector<std::string>& pieces) {
+  for (int k = 1 + random.below(3); k > 0; --k) {
+    const auto at = static_cast<std::size_t>(random.below(static_cast<int>(text.size())));
+    text.replace(at, static_cast<std::size_t>(random.below(4)), pieces[static_cast<std::size_t>(random.below(static_cast<int>(pieces.size())))]);
+  }
+  return text;
 }
 
 }  // namespace tendril::test

@@ -241,7 +241,7 @@ TEST_CASE("singular poses: solved, with what is free", "[robot]") {
     if (off == 0) {
       CHECK_THAT(wrist.message, Contains("the wrist is stretched: 'joint_4' is free and stays at 0.7"));
       CHECK(wrist.solutions[0][3] == Approx(0.7));
-      CHECK(std::abs(wrist.solutions[0][5] - 0.3) < 1e-9);
+      CHECK(std::abs(wrist.solutions[0][5] - 0.3) < 1e-7);  // on the fold an error of the frame counts as its root
     }
     // The elbow stretched: fore and upper arm in a line.
     const double stretched = std::atan2(1.16, 0.2) + off;

@@ -63,6 +63,31 @@ TEST_CASE("slide clip: between two equal, nearly taut spans the rod settles in t
   CHECK((support - Vec3(0, 0, 0.15 * 9.81)).norm() < 1e-8);
 }
 
+TEST_CASE("slide clip: breaks of the shape under the clip and around it change nothing", "[statics]") {
+  const SystemProblem plain = clipped(0.45, 0.44, 0.98);
+  SystemProblem broken = plain;
+  for (int k = 1; k < 20; ++k) broken.rods[0].rod.shape_breaks.push_back(0.05 * k);  // of a straight shape: no break at all
+  const SystemEquilibrium a = solve(plain), b = solve(broken);
+  REQUIRE(a.ok());
+  REQUIRE(b.ok());
+  CHECK(b.rods[0].reactions[1].s == Approx(a.rods[0].reactions[1].s).margin(1e-9));
+  CHECK(b.energy() == Approx(a.energy()).epsilon(1e-10));
+  Vec3 support = Vec3::Zero();
+  for (const auto& reaction : b.rods[0].reactions) support += reaction.force;
+  CHECK((support - Vec3(0, 0, 0.15 * 9.81)).norm() < 1e-8);
+}
+
+TEST_CASE("slide clip: one where something else needs a vertex is refused by name", "[statics]") {
+  SystemProblem problem = clipped(0.45, 0.44, 0.98);
+  problem.rods[0].loads.push_back({0.45, {0, 0, -1}, Vec3::Zero()});
+  const SystemEquilibrium eq = solve(problem);
+  CHECK(eq.rods[0].status == Status::infeasible);
+  CHECK(eq.rods[0].message == "the clip at 0.45 m, through which the rod slips, lies where a load acts, the section changes or rods are joined: "
+                              "put it a little beside");
+  problem.rods[0].loads[0].at = 0.47;
+  CHECK(solve(problem).ok());
+}
+
 TEST_CASE("slide clip: the configurational force is the same on both sides", "[statics]") {
   const SystemProblem problem = clipped(0.45, 0.44, 0.98);
   const SystemEquilibrium eq = solve(problem);
