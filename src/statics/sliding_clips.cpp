@@ -12,7 +12,7 @@
 namespace tendril {
 namespace {
 
-constexpr double difference = 1e-4;    // of the shorter side: step of the differences by arc length, fourth order
+constexpr double difference = 1e-6;    // of the shorter side: step of the differences by arc length; shapes may bend anew every few mm
 constexpr double longest_slip = 0.3;   // of the way to the next stop, in one step
 constexpr double nearest_stop = 2e-3;  // of the length: a rod so near to its end or another stop has slid out
 constexpr int most_steps = 60;
@@ -56,34 +56,41 @@ std::vector<Clip> clips_of(const SystemProblem& problem) {
 
 double& at(SystemProblem& problem, const Clip& clip) { return problem.rods[clip.rod].holds[clip.hold].at; }
 
-/// The energy at a state with the sections at the clips displaced by `a` along the rods, and its gradient by the state.
+/// The energy of one rod at a state of the whole system, with the sections at its clips displaced along it, and its gradient by the
+/// state. The other rods do not feel that: left out, they add no rounding to the small differences either.
 class DisplacedEnergy {
  public:
-  DisplacedEnergy(const SystemProblem& problem, const SolveOptions& options, const std::vector<Clip>& clips, const RodState& state)
-      : problem_(problem), options_(options), clips_(clips), state_(state) {
-    for (const RodProblem& rod : problem.rods) segments_.push_back(rod.rod.segments);
-    for (RodProblem& rod : problem_.rods) rod.surroundings = nullptr;
+  DisplacedEnergy(const SystemProblem& problem, const SolveOptions& options, const std::vector<Clip>& clips, const RodNetwork& network,
+                  const RodState& state, int rod)
+      : problem_(problem.rods[rod]), options_(options), clips_(clips), network_(network), state_(state), rod_(rod) {
+    problem_.surroundings = nullptr;
+    const RodMesh& mesh = network.rod(rod).mesh();
+    for (const int vertex : mesh.joint_vertex) joined_.push_back(mesh.s[vertex]);
   }
 
+  /// `a`: m, of all clips; those of other rods count for nothing.
   double operator()(const std::vector<double>& a, std::vector<Vec6>* gradient = nullptr) const {
-    SystemProblem displaced = problem_;
-    for (std::size_t k = 0; k < clips_.size(); ++k) at(displaced, clips_[k]) += a[k];
-    RodNetwork network(displaced, options_, segments_);
-    std::vector<Vec6> own;
-    const double energy = network.gradient(state_, own);
+    RodProblem displaced = problem_;
+    for (std::size_t k = 0; k < clips_.size(); ++k)
+      if (clips_[k].rod == rod_) displaced.holds[clips_[k].hold].at += a[k];
+    const auto system = make_rod_system(displaced, options_, cut_into_segments(displaced, displaced.rod.segments, 1, joined_));
+    std::vector<Vec6> own(network_.nodes(), Vec6::Zero());
+    const double energy = system->gradient(network_.of_rod(rod_, state_), own.data() + network_.first_node(rod_));
     if (gradient) {
-      network.join_gradient(state_, own);
+      network_.join_gradient(state_, own);
       *gradient = std::move(own);
     }
     return energy;
   }
 
  private:
-  SystemProblem problem_;
+  RodProblem problem_;
   const SolveOptions& options_;
   const std::vector<Clip>& clips_;
+  const RodNetwork& network_;
   const RodState& state_;
-  std::vector<int> segments_;
+  int rod_;
+  std::vector<double> joined_;  ///< arc lengths where it belongs to branch points
 };
 
 /// Slope and curvature of the energy of the equilibria as functions of the arc lengths at the clips.
@@ -96,7 +103,6 @@ struct Reduced {
 Reduced reduce(NetworkSolver& solver, const RodState& state, const SystemProblem& problem, const SolveOptions& options,
                const std::vector<Clip>& clips) {
   const int m = static_cast<int>(clips.size());
-  const DisplacedEnergy energy(problem, options, clips, state);
   StepSystem linear(solver.network());
   solver.assemble_exact(state, linear);
   int factorisations = 0;
@@ -114,9 +120,10 @@ Reduced reduce(NetworkSolver& solver, const RodState& state, const SystemProblem
     const double here = at(copy, clips[k]);
     steps[k] = difference * std::min(here - clips[k].low, clips[k].high - here);
   }
-  const double middle = energy(std::vector<double>(m, 0.0));
+  out.curvature.setZero();
   for (int k = 0; k < m; ++k) {
-    const double d = steps[k];
+    const DisplacedEnergy energy(problem, options, clips, solver.network(), state, clips[k].rod);
+    const double d = steps[k], middle = energy(std::vector<double>(m, 0.0));
     std::array<double, 4> e;
     std::array<std::vector<Vec6>, 4> g;
     constexpr std::array<double, 4> places = {-2, -1, 1, 2};
@@ -132,6 +139,7 @@ Reduced reduce(NetworkSolver& solver, const RodState& state, const SystemProblem
     response[k] = mixed[k];
     linear.apply_inverse(state, response[k]);
     for (int l = 0; l < k; ++l) {
+      if (clips[l].rod != clips[k].rod) continue;
       double corner[2][2];
       for (int i = 0; i < 2; ++i)
         for (int j = 0; j < 2; ++j) {
