@@ -206,8 +206,9 @@ std::vector<MeshPiece> sort_into_pieces(const std::vector<Vector3f>& positions, 
   for (std::size_t i = 0; i < count; ++i) {
     Vector3f middle = Vector3f::Zero();
     for (int k = 0; k < size; ++k) middle += positions[indices[i * size + k]];
-    const Eigen::Vector3i at =
-        ((middle / static_cast<float>(size) - low).cwiseProduct(scale)).cast<int>().cwiseMax(0).cwiseMin(cells - 1);
+    // Limited before it is a whole number: across a flat mesh a rounding error is a huge number of cells.
+    const Vector3f place = (middle / static_cast<float>(size) - low).cwiseProduct(scale);
+    const Eigen::Vector3i at = place.cwiseMax(0.0f).cwiseMin(static_cast<float>(cells - 1)).cast<int>();
     cell[i] = static_cast<std::uint16_t>((at.z() * cells + at.y()) * cells + at.x());
     ++start[cell[i] + 1u];
   }
