@@ -26,6 +26,7 @@ class KblReader {
   void check_root();
   Vec3 point(Node from, std::string_view id) const;
   std::optional<Frame> placement(Node owner) const;
+  void take_id(std::unordered_map<std::string_view, int>& taken, Node node, std::size_t number) const;
   void read_node(Node node);
   void read_segment(Node node);
   HarnessCurve curve(Node node) const;
@@ -86,6 +87,14 @@ std::string KblReader::component_name(std::string_view id) const {
   return parent.empty() ? std::string(id) : parent;
 }
 
+/// Rods and branch points are called as these: each by a name of its own.
+void KblReader::take_id(std::unordered_map<std::string_view, int>& taken, Node node, std::size_t number) const {
+  const std::string_view id = node.attribute("id").value();
+  if (id.empty()) file_.fail(node, "<" + std::string(node.name()) + ">: it has no id");
+  if (!taken.emplace(id, static_cast<int>(number)).second)
+    file_.fail(node, "<" + std::string(node.name()) + " id=\"" + std::string(id) + "\">: another " + node.name() + " has this id");
+}
+
 void KblReader::read_node(Node node) {
   HarnessNode made;
   made.id = node.attribute("id").value();
@@ -94,7 +103,7 @@ void KblReader::read_node(Node node) {
   made.min_bend_radius = units_.value(node, "Bend_radius", Quantity::length);
   for (const std::string_view id : XmlFile::words(XmlFile::text(node, "Referenced_components")))
     made.components.push_back(component_name(id));
-  nodes_.emplace(node.attribute("id").value(), static_cast<int>(found_.nodes.size()));
+  take_id(nodes_, node, found_.nodes.size());
   found_.nodes.push_back(std::move(made));
 }
 
@@ -182,7 +191,7 @@ void KblReader::read_segment(Node node) {
   for (Node child : node.children("Center_curve")) made.curves.push_back(curve(child));
   for (Node child : node.children("Fixing_assignment")) made.fixings.push_back(fixing(child));
   for (Node child : node.children("Protection_area")) made.protections.push_back(protection(child));
-  segments_.emplace(node.attribute("id").value(), static_cast<int>(found_.segments.size()));
+  take_id(segments_, node, found_.segments.size());
   found_.segments.push_back(std::move(made));
 }
 

@@ -108,6 +108,9 @@ TEST_CASE("what is no harness is refused with the line") {
   refuses("<Coordinates>130</Coordinates>", "<Coordinates>inf</Coordinates>", "x.kbl:8: <Coordinates>: got 'inf', expected a finite number");
   refuses("<Coordinates>130</Coordinates>", "", "x.kbl:8: <Cartesian_point>: got 2 <Coordinates>, expected 3");
   refuses("<Coordinates>130</Coordinates>", "<Coordinates>1e12</Coordinates>", "it lies farther than 1000 km from the origin");
+  refuses("<Node id=\"lamp\">", "<Node id=\"plug\">", "<Node id=\"plug\">: another Node has this id");
+  refuses("<Node id=\"lamp\">", "<Node>", "<Node>: it has no id");
+  refuses("<Segment id=\"to_lamp\"", "<Segment id=\"trunk\"", "<Segment id=\"trunk\">: another Segment has this id");
   refuses("<Start_node>plug</Start_node>", "<Start_node>plug_2</Start_node>", "refers to 'plug_2', which is not in the file");
   refuses("<Start_node>plug</Start_node>", "<Start_node>trunk</Start_node>", "refers to 'trunk', which is a Segment, expected a Node");
   refuses("<Start_node>plug</Start_node>", "", "names no Node");
