@@ -13,19 +13,23 @@ namespace {
 
 using RunWorkers = void(int workers, void (*work)(void* data, int worker), void* data);
 
-/// The library of threads orders what came before the workers, they, and what comes after. The two flags say so once more, where the
-/// thread sanitizer, which does not see into that library, can see it.
+/// The library of threads orders what came before the workers, they, and what comes after. The lock and the count say so once more,
+/// where the thread sanitizer, which does not see into that library, can see it.
 struct Job {
   const std::function<void(int)>& work;
   std::mutex guard{};
   std::exception_ptr failure{};
-  std::atomic<bool> handed_over{false};
   std::atomic<int> finished{0};
 };
 
+void pass_the_job() {
+  static std::mutex handover;
+  const std::lock_guard passed(handover);
+}
+
 void run_one(void* data, int worker) {
+  pass_the_job();
   Job& job = *static_cast<Job*>(data);
-  job.handed_over.load(std::memory_order_acquire);
   try {
     job.work(worker);
   } catch (...) {
@@ -43,7 +47,7 @@ int thread_count(int requested) {
 
 void run_workers(int workers, const std::function<void(int worker)>& work) {
   Job job{work};
-  job.handed_over.store(true, std::memory_order_release);
+  pass_the_job();
   RunWorkers* const run = workers > 1 ? [] {
     static auto* const loaded = reinterpret_cast<RunWorkers*>(load_module("tendril_threads.so", "tendril_run_workers").address);
     return loaded;

@@ -90,8 +90,9 @@ TEST_CASE("a study divided among processes has the same bits, and one process pr
   const cli::Folder folder;
   const std::string script = folder.file("study.lua", study), alone = folder.path() + "/alone.csv";
   REQUIRE(cli::run({script, alone, "-"}).code == 0);
+  // Open MPI unloads its own parts before a leak sanitizer, where there is one, can tell whose the memory is.
   const auto by_processes = [&](int count, const std::string& csv, const std::string& store) {
-    return "mpirun --allow-run-as-root --oversubscribe -n " + std::to_string(count) + " '" TENDRIL_BINARY "' '" + script + "' '" + csv + "' '" +
+    return "ASAN_OPTIONS=detect_leaks=0 mpirun --allow-run-as-root --oversubscribe -n " + std::to_string(count) + " '" TENDRIL_BINARY "' '" + script + "' '" + csv + "' '" +
            store + "' > '" + folder.path() + "/out.txt' 2> '" + folder.path() + "/err.txt'";
   };
   for (const int count : {2, 3, 4}) {
