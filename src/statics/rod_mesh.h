@@ -16,7 +16,7 @@ struct MeshSegment {
 };
 
 /// Vertices lie at every hold, load, spring, joined place, change of section and break of the reference shape; between those the segments are
-/// as equal as the number asked for allows.
+/// as equal as the number asked for allows. Rods that slip through a hold have none at the breaks of their shape.
 struct RodMesh {
   std::vector<double> s;               ///< segments + 1
   std::vector<MeshSegment> segments;
